@@ -1,0 +1,108 @@
+// Renderer: the one thread that owns the GL context, and the views it draws, one a client.
+//
+// The renderer pulls: it asks each attached FrameSource in turn what to draw, draws it, and hands the pixels
+// back. A source that has nothing to draw (client slow, picture converged) says so and costs nothing.
+#pragma once
+
+#include "server/render/image.h"
+#include "server/render/settings.h"
+#include "server/scene/scene.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace farlight {
+
+/// What one client wants drawn next.
+struct RenderRequest {
+    CameraPose camera;
+    RenderSettings settings;
+    Extent extent;
+    PixelFormat format = PixelFormat::kRgb8;
+    bool reset_history = false;  ///< A cut: forget history and accumulated samples, restart the random numbers.
+    bool refine = false;  ///< The camera rests: blend towards the accumulated mean (see RenderSettings).
+};
+
+struct PassTime {
+    std::string pass;
+    double milliseconds = 0;
+};
+
+/// One drawn frame and what is known about it.
+struct RenderedFrame {
+    Image image;
+    std::vector<PassTime> pass_times;  ///< In execution order. GPU time, or host time on llvmpipe.
+    double trace_ms = 0;  ///< Sum of the passes up to and including path_trace.
+    double denoise_ms = 0;  ///< Sum of the passes after it.
+    std::uint32_t accumulated_samples = 0;  ///< Samples a pixel since the camera or a setting last changed.
+    std::uint32_t nonfinite_count = 0;  ///< Non-finite values met before anything cleaned them; must be 0.
+    bool history_reset = false;  ///< This frame started without history.
+    bool converged = false;  ///< accumulated_samples reached settings.still_samples.
+    std::string error;  ///< Not empty: this frame could not be drawn and `image` is empty.
+};
+
+/// One client as the renderer sees it. Both functions are called on the render thread and must not block.
+class FrameSource {
+public:
+    virtual ~FrameSource() = default;
+    /// The next frame to draw, or nothing. Called again after every drawn frame and every Renderer::wake().
+    virtual std::optional<RenderRequest> next_request() = 0;
+    /// The frame asked for by the last next_request(); frames come back in the order they were asked for.
+    virtual void frame_done(RenderedFrame frame) = 0;
+};
+
+/// What a client may want to know before its first frame; fixed once the renderer runs.
+struct RendererDescription {
+    std::string device;  ///< "software" or "gpu:N", and the device's own name.
+    std::string gl_renderer;  ///< GL_RENDERER.
+    std::string gl_version;
+    bool software = false;
+    std::string scene_name;
+    std::string scene_file;
+    std::vector<std::string> scene_notes;
+    std::vector<std::string> effects;  ///< "spheres: 4 objects, first 'left'" ...: compiled in, and why.
+    CameraPose camera;
+    std::map<std::string, std::vector<CameraKeyframe>> camera_paths;
+    Bounds bounds;
+    std::size_t triangles = 0;
+    std::size_t lights = 0;
+    Extent default_extent;
+    int max_dimension = 0;  ///< Largest width or height the device can draw.
+};
+
+struct RendererOptions {
+    std::string device = "auto";  ///< auto, software, gpu, gpu:N
+    std::optional<Extent> extent;  ///< Absent: measured so that the first picture moves at 10 frames a second.
+    RenderSettings settings;  ///< Defaults of every new client.
+};
+
+/// Starts the render thread. Thread-safe.
+class Renderer {
+public:
+    /// Blocks until the scene is on the device. Throws DeviceError, SceneError or GlError with a full message.
+    Renderer(Scene scene, const RendererOptions& options);
+    /// Finishes the frame being drawn and joins the thread.
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    const RendererDescription& description() const;
+
+    void attach(std::shared_ptr<FrameSource> source);
+    /// After this returns, `source` is not called again. Its history is freed.
+    void detach(const std::shared_ptr<FrameSource>& source);
+    /// Some source may have something to draw now.
+    void wake();
+
+    /// Empty while the device works; else why it does not (lost context, GL error). Then no frames are drawn.
+    std::string failure() const;
+    std::uint64_t frames_rendered() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace farlight

@@ -1,0 +1,139 @@
+// RenderSettings: THE list of tunables. Command line (--set), wire (`set`) and viewer follow from each_field.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace farlight {
+
+/// Values an integer setting may take, inclusive.
+struct IntRange {
+    std::int64_t lower;
+    std::int64_t upper;
+};
+
+/// Values a real setting may take, inclusive; finite.
+struct RealRange {
+    double lower;
+    double upper;
+};
+
+enum class Denoiser : std::uint8_t { kNone, kAccumulate, kSvgf };
+enum class Tonemap : std::uint8_t { kAces, kLinear };
+/// What is drawn: the finished picture, or one of the buffers behind it.
+enum class DebugView : std::uint8_t {
+    kFinal,
+    kSheet,  ///< Four quadrants: radiance, normal, variance, history length.
+    kRawRadiance,
+    kDirect,
+    kIndirect,
+    kAlbedo,
+    kEmission,
+    kDepth,
+    kDepthGradient,
+    kPosition,
+    kGeometricNormal,
+    kShadingNormal,
+    kObjectId,
+    kMaterialId,
+    kMotion,
+    kVariance,
+    kHistoryLength,
+};
+
+/// The wire's word for each value, in declaration order.
+constexpr std::string_view kDenoiserNames[] = {"none", "accumulate", "svgf"};
+constexpr std::string_view kTonemapNames[] = {"aces", "linear"};
+constexpr std::string_view kDebugViewNames[] = {"final", "sheet", "raw_radiance", "direct", "indirect", "albedo",
+    "emission", "depth", "depth_gradient", "position", "geometric_normal", "shading_normal", "object_id",
+    "material_id", "motion", "variance", "history_length"};
+
+struct RenderSettings {
+    Denoiser denoiser = Denoiser::kSvgf;
+    int samples_per_pixel = 1;
+    int max_depth = 4;
+    int roulette_depth = 3;
+    bool light_sampling = true;
+    std::uint32_t seed = 0;
+
+    int history_max = 32;
+    float svgf_alpha = 0.2F;
+    float svgf_moments_alpha = 0.2F;
+    int svgf_spatial_frames = 4;
+    int atrous_iterations = 5;
+    int svgf_feedback_iteration = 1;
+    float sigma_depth = 1;
+    float sigma_normal = 128;
+    float sigma_luminance = 4;
+    float reproject_depth = 2;
+    float reproject_normal = 0.9F;
+
+    int still_samples = 256;
+    int refine_crossover = 64;
+
+    float exposure = 1;
+    Tonemap tonemap = Tonemap::kAces;
+    DebugView view = DebugView::kFinal;
+    int jpeg_quality = 80;
+
+    bool operator==(const RenderSettings&) const = default;
+
+    /// visit(member, name, allowed values, "[unit] meaning") for every setting, in the order shown to people.
+    static void each_field(auto& s, auto&& visit)
+    {
+        visit(s.denoiser, "denoiser", kDenoiserNames, "how samples become a picture");
+        visit(s.samples_per_pixel, "samples_per_pixel", IntRange{1, 1024}, "paths traced a pixel and frame");
+        visit(s.max_depth, "max_depth", IntRange{1, 64},
+            "[segments] longest path from the camera: 1 sees emission only, 2 adds direct light");
+        visit(s.roulette_depth, "roulette_depth", IntRange{1, 64},
+            "[segments] Russian roulette may end a path after this many");
+        visit(s.light_sampling, "light_sampling", IntRange{0, 1},
+            "sample the lights at every hit and combine by MIS; 0 leaves light to chance hits");
+        visit(s.seed, "seed", IntRange{0, std::numeric_limits<std::uint32_t>::max()}, "same seed, same picture");
+        visit(s.history_max, "history_max", IntRange{1, 4096}, "[frames] longest history a pixel remembers");
+        visit(s.svgf_alpha, "svgf_alpha", RealRange{0.001, 1}, "least weight of the new frame in the blended radiance");
+        visit(s.svgf_moments_alpha, "svgf_moments_alpha", RealRange{0.001, 1},
+            "least weight of the new frame in the luminance moments");
+        visit(s.svgf_spatial_frames, "svgf_spatial_frames", IntRange{1, 64},
+            "[frames] with less history than this, variance is estimated over 7x7 pixels");
+        visit(s.atrous_iterations, "atrous_iterations", IntRange{0, 8}, "wavelet filter passes, steps 1, 2, 4, ... pixels");
+        visit(s.svgf_feedback_iteration, "svgf_feedback_iteration", IntRange{0, 8},
+            "the output of this a-trous pass becomes history; 0 feeds back the unfiltered blend");
+        visit(s.sigma_depth, "sigma_depth", RealRange{0.01, 100}, "depth edge stop, in units of the depth gradient");
+        visit(s.sigma_normal, "sigma_normal", RealRange{0, 1024}, "normal edge stop: exponent of the cosine");
+        visit(s.sigma_luminance, "sigma_luminance", RealRange{0.01, 100},
+            "luminance edge stop, in standard deviations");
+        visit(s.reproject_depth, "reproject_depth", RealRange{0.01, 100},
+            "[pixel footprints] a reprojected pixel this far off its surface's plane is another surface");
+        visit(s.reproject_normal, "reproject_normal", RealRange{-1, 1},
+            "least cosine between the normals of a pixel and its history");
+        visit(s.still_samples, "still_samples", IntRange{1, 65536},
+            "samples a pixel after which a resting picture is final and sent lossless");
+        visit(s.refine_crossover, "refine_crossover", IntRange{1, 65536},
+            "samples at which a plain mean equals the denoiser; sets how fast a resting picture turns to the mean");
+        visit(s.exposure, "exposure", RealRange{0, 1e6}, "linear scale before tone mapping");
+        visit(s.tonemap, "tonemap", kTonemapNames, "curve from scene-linear to display");
+        visit(s.view, "view", kDebugViewNames, "the finished picture or a buffer behind it");
+        visit(s.jpeg_quality, "jpeg_quality", IntRange{1, 100}, "quality of moving pictures");
+    }
+};
+
+struct SettingError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Sets `key` from a JSON string, number or boolean. Throws SettingError that names key, value found and values
+/// expected; `settings` is then unchanged.
+void set_setting(RenderSettings& settings, std::string_view key, const nlohmann::json& value);
+
+/// The same from `key=value`, as on the command line.
+void set_setting(RenderSettings& settings, std::string_view key_equals_value);
+
+/// [{"key", "type": "choice"|"integer"|"real"|"boolean", "value", "default", "choices" | "lower","upper", "help"}].
+nlohmann::json describe_settings(const RenderSettings& settings);
+
+}  // namespace farlight
