@@ -1,7 +1,8 @@
 // Renderer: the one thread that owns the GL context, and the views it draws, one a client.
 //
-// The renderer pulls: it asks each attached FrameSource in turn what to draw, draws it, and hands the pixels
-// back. A source that has nothing to draw (client slow, picture converged) says so and costs nothing.
+// The renderer pulls: it asks each attached FrameSource in turn what to draw, draws it, and hands
+// the pixels back. A source that has nothing to draw (client slow, picture converged) says so and
+// costs nothing.
 #pragma once
 
 #include "server/render/image.h"
@@ -21,8 +22,10 @@ struct RenderRequest {
     RenderSettings settings;
     Extent extent;
     PixelFormat format = PixelFormat::kRgb8;
-    bool reset_history = false;  ///< A cut: forget history and accumulated samples, restart the random numbers.
-    bool refine = false;  ///< The camera rests: blend towards the accumulated mean (see RenderSettings).
+    bool reset_history =
+        false;  ///< A cut: forget history and accumulated samples, restart the random numbers.
+    bool refine =
+        false;  ///< The camera rests: blend towards the accumulated mean (see RenderSettings).
 };
 
 struct PassTime {
@@ -36,20 +39,25 @@ struct RenderedFrame {
     std::vector<PassTime> pass_times;  ///< In execution order. GPU time, or host time on llvmpipe.
     double trace_ms = 0;  ///< Sum of the passes up to and including path_trace.
     double denoise_ms = 0;  ///< Sum of the passes after it.
-    std::uint32_t accumulated_samples = 0;  ///< Samples a pixel since the camera or a setting last changed.
-    std::uint32_t nonfinite_count = 0;  ///< Non-finite values met before anything cleaned them; must be 0.
+    std::uint32_t accumulated_samples =
+        0;  ///< Samples a pixel since the camera or a setting last changed.
+    std::uint32_t nonfinite_count =
+        0;  ///< Non-finite values met before anything cleaned them; must be 0.
     bool history_reset = false;  ///< This frame started without history.
     bool converged = false;  ///< accumulated_samples reached settings.still_samples.
     std::string error;  ///< Not empty: this frame could not be drawn and `image` is empty.
 };
 
-/// One client as the renderer sees it. Both functions are called on the render thread and must not block.
+/// One client as the renderer sees it. Both functions are called on the render thread and must not
+/// block.
 class FrameSource {
 public:
     virtual ~FrameSource() = default;
-    /// The next frame to draw, or nothing. Called again after every drawn frame and every Renderer::wake().
+    /// The next frame to draw, or nothing. Called again after every drawn frame and every
+    /// Renderer::wake().
     virtual std::optional<RenderRequest> next_request() = 0;
-    /// The frame asked for by the last next_request(); frames come back in the order they were asked for.
+    /// The frame asked for by the last next_request(); frames come back in the order they were
+    /// asked for.
     virtual void frame_done(RenderedFrame frame) = 0;
 };
 
@@ -62,7 +70,8 @@ struct RendererDescription {
     std::string scene_name;
     std::string scene_file;
     std::vector<std::string> scene_notes;
-    std::vector<std::string> effects;  ///< "spheres: 4 objects, first 'left'" ...: compiled in, and why.
+    std::vector<std::string>
+        effects;  ///< "spheres: 4 objects, first 'left'" ...: compiled in, and why.
     CameraPose camera;
     std::map<std::string, std::vector<CameraKeyframe>> camera_paths;
     Bounds bounds;
@@ -74,14 +83,16 @@ struct RendererDescription {
 
 struct RendererOptions {
     std::string device = "auto";  ///< auto, software, gpu, gpu:N
-    std::optional<Extent> extent;  ///< Absent: measured so that the first picture moves at 10 frames a second.
+    std::optional<Extent>
+        extent;  ///< Absent: measured so that the first picture moves at 10 frames a second.
     RenderSettings settings;  ///< Defaults of every new client.
 };
 
 /// Starts the render thread. Thread-safe.
 class Renderer {
 public:
-    /// Blocks until the scene is on the device. Throws DeviceError, SceneError or GlError with a full message.
+    /// Blocks until the scene is on the device. Throws DeviceError, SceneError or GlError with a
+    /// full message.
     Renderer(Scene scene, const RendererOptions& options);
     /// Finishes the frame being drawn and joins the thread.
     ~Renderer();
@@ -96,7 +107,8 @@ public:
     /// Some source may have something to draw now.
     void wake();
 
-    /// Empty while the device works; else why it does not (lost context, GL error). Then no frames are drawn.
+    /// Empty while the device works; else why it does not (lost context, GL error). Then no frames
+    /// are drawn.
     std::string failure() const;
     std::uint64_t frames_rendered() const;
 

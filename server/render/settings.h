@@ -1,4 +1,5 @@
-// RenderSettings: THE list of tunables. Command line (--set), wire (`set`) and viewer follow from each_field.
+// RenderSettings: THE list of tunables. Command line (--set), wire (`set`) and viewer follow from
+// each_field.
 #pragma once
 
 #include <cstdint>
@@ -48,9 +49,9 @@ enum class DebugView : std::uint8_t {
 /// The wire's word for each value, in declaration order.
 constexpr std::string_view kDenoiserNames[] = {"none", "accumulate", "svgf"};
 constexpr std::string_view kTonemapNames[] = {"aces", "linear"};
-constexpr std::string_view kDebugViewNames[] = {"final", "sheet", "raw_radiance", "direct", "indirect", "albedo",
-    "emission", "depth", "depth_gradient", "position", "geometric_normal", "shading_normal", "object_id",
-    "material_id", "motion", "variance", "history_length"};
+constexpr std::string_view kDebugViewNames[] = {"final", "sheet", "raw_radiance", "direct",
+    "indirect", "albedo", "emission", "depth", "depth_gradient", "position", "geometric_normal",
+    "shading_normal", "object_id", "material_id", "motion", "variance", "history_length"};
 
 struct RenderSettings {
     Denoiser denoiser = Denoiser::kSvgf;
@@ -82,39 +83,49 @@ struct RenderSettings {
 
     bool operator==(const RenderSettings&) const = default;
 
-    /// visit(member, name, allowed values, "[unit] meaning") for every setting, in the order shown to people.
+    /// visit(member, name, allowed values, "[unit] meaning") for every setting, in the order shown
+    /// to people.
     static void each_field(auto& s, auto&& visit)
     {
         visit(s.denoiser, "denoiser", kDenoiserNames, "how samples become a picture");
-        visit(s.samples_per_pixel, "samples_per_pixel", IntRange{1, 1024}, "paths traced a pixel and frame");
+        visit(s.samples_per_pixel, "samples_per_pixel", IntRange{1, 1024},
+            "paths traced a pixel and frame");
         visit(s.max_depth, "max_depth", IntRange{1, 64},
             "[segments] longest path from the camera: 1 sees emission only, 2 adds direct light");
         visit(s.roulette_depth, "roulette_depth", IntRange{1, 64},
             "[segments] Russian roulette may end a path after this many");
         visit(s.light_sampling, "light_sampling", IntRange{0, 1},
             "sample the lights at every hit and combine by MIS; 0 leaves light to chance hits");
-        visit(s.seed, "seed", IntRange{0, std::numeric_limits<std::uint32_t>::max()}, "same seed, same picture");
-        visit(s.history_max, "history_max", IntRange{1, 4096}, "[frames] longest history a pixel remembers");
-        visit(s.svgf_alpha, "svgf_alpha", RealRange{0.001, 1}, "least weight of the new frame in the blended radiance");
+        visit(s.seed, "seed", IntRange{0, std::numeric_limits<std::uint32_t>::max()},
+            "same seed, same picture");
+        visit(s.history_max, "history_max", IntRange{1, 4096},
+            "[frames] longest history a pixel remembers");
+        visit(s.svgf_alpha, "svgf_alpha", RealRange{0.001, 1},
+            "least weight of the new frame in the blended radiance");
         visit(s.svgf_moments_alpha, "svgf_moments_alpha", RealRange{0.001, 1},
             "least weight of the new frame in the luminance moments");
         visit(s.svgf_spatial_frames, "svgf_spatial_frames", IntRange{1, 64},
             "[frames] with less history than this, variance is estimated over 7x7 pixels");
-        visit(s.atrous_iterations, "atrous_iterations", IntRange{0, 8}, "wavelet filter passes, steps 1, 2, 4, ... pixels");
+        visit(s.atrous_iterations, "atrous_iterations", IntRange{0, 8},
+            "wavelet filter passes, steps 1, 2, 4, ... pixels");
         visit(s.svgf_feedback_iteration, "svgf_feedback_iteration", IntRange{0, 8},
             "the output of this a-trous pass becomes history; 0 feeds back the unfiltered blend");
-        visit(s.sigma_depth, "sigma_depth", RealRange{0.01, 100}, "depth edge stop, in units of the depth gradient");
-        visit(s.sigma_normal, "sigma_normal", RealRange{0, 1024}, "normal edge stop: exponent of the cosine");
+        visit(s.sigma_depth, "sigma_depth", RealRange{0.01, 100},
+            "depth edge stop, in units of the depth gradient");
+        visit(s.sigma_normal, "sigma_normal", RealRange{0, 1024},
+            "normal edge stop: exponent of the cosine");
         visit(s.sigma_luminance, "sigma_luminance", RealRange{0.01, 100},
             "luminance edge stop, in standard deviations");
         visit(s.reproject_depth, "reproject_depth", RealRange{0.01, 100},
-            "[pixel footprints] a reprojected pixel this far off its surface's plane is another surface");
+            "[pixel footprints] a reprojected pixel this far off its surface's plane is another "
+            "surface");
         visit(s.reproject_normal, "reproject_normal", RealRange{-1, 1},
             "least cosine between the normals of a pixel and its history");
         visit(s.still_samples, "still_samples", IntRange{1, 65536},
             "samples a pixel after which a resting picture is final and sent lossless");
         visit(s.refine_crossover, "refine_crossover", IntRange{1, 65536},
-            "samples at which a plain mean equals the denoiser; sets how fast a resting picture turns to the mean");
+            "samples at which a plain mean equals the denoiser; sets how fast a resting picture "
+            "turns to the mean");
         visit(s.exposure, "exposure", RealRange{0, 1e6}, "linear scale before tone mapping");
         visit(s.tonemap, "tonemap", kTonemapNames, "curve from scene-linear to display");
         visit(s.view, "view", kDebugViewNames, "the finished picture or a buffer behind it");
@@ -126,14 +137,15 @@ struct SettingError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Sets `key` from a JSON string, number or boolean. Throws SettingError that names key, value found and values
-/// expected; `settings` is then unchanged.
+/// Sets `key` from a JSON string, number or boolean. Throws SettingError that names key, value
+/// found and values expected; `settings` is then unchanged.
 void set_setting(RenderSettings& settings, std::string_view key, const nlohmann::json& value);
 
 /// The same from `key=value`, as on the command line.
 void set_setting(RenderSettings& settings, std::string_view key_equals_value);
 
-/// [{"key", "type": "choice"|"integer"|"real"|"boolean", "value", "default", "choices" | "lower","upper", "help"}].
+/// [{"key", "type": "choice"|"integer"|"real"|"boolean", "value", "default", "choices" |
+/// "lower","upper", "help"}].
 nlohmann::json describe_settings(const RenderSettings& settings);
 
 }  // namespace farlight
