@@ -93,24 +93,6 @@ void assign(float& member, std::string_view key, RealRange range, const json& va
     member = static_cast<float>(number);
 }
 
-template <typename T, std::size_t N>
-void describe(json& row, T value, const T& fallback, const std::string_view (&names)[N])
-{
-    row["type"] = "choice";
-    row["value"] = names[static_cast<std::size_t>(value)];
-    row["default"] = names[static_cast<std::size_t>(fallback)];
-    row["choices"] = names;
-}
-
-template <typename T> void describe(json& row, T value, const T& fallback, IntRange range)
-{
-    row["type"] = std::is_same_v<T, bool> ? "boolean" : "integer";
-    row["value"] = value;
-    row["default"] = fallback;
-    row["lower"] = range.lower;
-    row["upper"] = range.upper;
-}
-
 /// The shortest decimal that reads back as the same float: 0.2, not 0.20000000298.
 double decimal(float value)
 {
@@ -121,13 +103,35 @@ double decimal(float value)
     return number;
 }
 
-void describe(json& row, float value, const float& fallback, RealRange range)
+template <typename T, std::size_t N> json row_of(T value, const std::string_view (&names)[N])
 {
-    row["type"] = "real";
-    row["value"] = decimal(value);
-    row["default"] = decimal(fallback);
-    row["lower"] = range.lower;
-    row["upper"] = range.upper;
+    return {
+        {"type", "choice"}, {"value", names[static_cast<std::size_t>(value)]}, {"choices", names}};
+}
+
+template <typename T> json row_of(T value, IntRange range)
+{
+    return {{"type", std::is_same_v<T, bool> ? "boolean" : "integer"}, {"value", value},
+        {"lower", range.lower}, {"upper", range.upper}};
+}
+
+json row_of(float value, RealRange range)
+{
+    return {{"type", "real"}, {"value", decimal(value)}, {"lower", range.lower},
+        {"upper", range.upper}};
+}
+
+json rows_of(const RenderSettings& settings)
+{
+    json rows = json::array();
+    RenderSettings::each_field(settings,
+        [&](const auto& member, std::string_view name, const auto& allowed, std::string_view help) {
+            json row = row_of(member, allowed);
+            row["key"] = name;
+            row["help"] = help;
+            rows.push_back(std::move(row));
+        });
+    return rows;
 }
 
 }  // namespace
@@ -160,19 +164,10 @@ void set_setting(RenderSettings& settings, std::string_view key_equals_value)
 
 json describe_settings(const RenderSettings& settings)
 {
-    const RenderSettings defaults;
-    json rows = json::array();
-    RenderSettings::each_field(settings,
-        [&](const auto& member, std::string_view name, const auto& allowed, std::string_view help) {
-            using Member = std::remove_cvref_t<decltype(member)>;
-            const auto offset =
-                reinterpret_cast<const char*>(&member) - reinterpret_cast<const char*>(&settings);
-            const auto& fallback =
-                *reinterpret_cast<const Member*>(reinterpret_cast<const char*>(&defaults) + offset);
-            json row{{"key", name}, {"help", help}};
-            describe(row, member, fallback, allowed);
-            rows.push_back(std::move(row));
-        });
+    json rows = rows_of(settings);
+    const json defaults = rows_of(RenderSettings{});
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i]["default"] = defaults[i]["value"];
     return rows;
 }
 
