@@ -35,7 +35,7 @@ struct Rule {
     double lower = -std::numeric_limits<double>::infinity();  ///< Of a number or of each array
                                                               ///< element, inclusive.
     double upper = std::numeric_limits<double>::infinity();
-    std::size_t longest = 4096;  ///< [bytes] of a string.
+    std::size_t longest = 65536;  ///< [bytes] of a string.
 };
 
 constexpr Rule kOptional{.required = false};
