@@ -1,0 +1,114 @@
+// DrawPlan: see the header.
+#include "server/stream/draw_plan.h"
+
+#include "server/stream/encoder.h"
+
+#include <utility>
+
+namespace farlight {
+
+DrawPlan::DrawPlan(
+    protocol::Mode mode, const RenderRequest& first, protocol::Format format, Time now)
+    : mode_(mode)
+    , wishes_(first)
+    , format_(format)
+    , changed_(now)
+{
+    wishes_.format = pixel_format_for(format);
+}
+
+bool DrawPlan::move_camera(const CameraPose& pose, std::uint32_t sequence, bool cut, Time now)
+{
+    if (mode_ == protocol::Mode::kLockstep && queue_.size() >= protocol::kLockstepQueue)
+        return false;
+    camera_sequence_ = sequence;
+    wishes_.camera = pose;
+    wishes_.reset_history = wishes_.reset_history || cut;
+    change(now);
+    if (mode_ == protocol::Mode::kLockstep) {
+        queue_.push_back(draw_of_wishes(now));
+        wishes_.reset_history = false;
+    }
+    return true;
+}
+
+void DrawPlan::set_settings(const RenderSettings& settings, Time now)
+{
+    wishes_.settings = settings;
+    change(now);
+}
+
+void DrawPlan::set_extent(Extent extent, Time now)
+{
+    wishes_.extent = extent;
+    ++session_epoch_;
+    change(now);
+}
+
+void DrawPlan::set_format(protocol::Format format, Time now)
+{
+    format_ = format;
+    wishes_.format = pixel_format_for(format);
+    change(now);
+}
+
+std::optional<Draw> DrawPlan::next()
+{
+    if (mode_ == protocol::Mode::kLockstep) {
+        if (queue_.empty())
+            return std::nullopt;
+        Draw draw = std::move(queue_.front());
+        queue_.pop_front();
+        return draw;
+    }
+    if (planned_version_ != version_) {
+        Draw draw = draw_of_wishes(changed_);
+        plan_instead(draw);
+        return draw;
+    }
+    if (final_version_ == version_)
+        return std::nullopt;
+    ++unchanged_frames_;
+    Draw draw = draw_of_wishes(std::nullopt);
+    draw.request.refine = unchanged_frames_ >= kFramesUntilRest;
+    return draw;
+}
+
+std::optional<Draw> DrawPlan::newer_than(const Draw& stale) const
+{
+    if (mode_ == protocol::Mode::kLockstep || planned_version_ == version_)
+        return std::nullopt;
+    Draw newer = draw_of_wishes(changed_);
+    newer.request.reset_history |= stale.request.reset_history;
+    return newer;
+}
+
+void DrawPlan::plan_instead(const Draw& newer)
+{
+    planned_version_ = newer.version;
+    unchanged_frames_ = 0;
+    wishes_.reset_history = false;
+}
+
+void DrawPlan::settle(const Draw& draw)
+{
+    final_version_ = draw.version;
+}
+
+bool DrawPlan::repeats_final(const Draw& draw) const
+{
+    return mode_ == protocol::Mode::kInteractive && draw.version == final_version_;
+}
+
+void DrawPlan::change(Time now)
+{
+    ++version_;
+    changed_ = now;
+}
+
+Draw DrawPlan::draw_of_wishes(std::optional<Time> asked) const
+{
+    return {wishes_, format_, camera_sequence_, session_epoch_, version_, asked};
+}
+
+}  // namespace farlight

@@ -1,0 +1,64 @@
+// Pacing: see the header.
+#include "server/stream/pacing.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace farlight {
+
+Pacing::Pacing(int window) : window_(window)
+{
+    assert(window >= 1 && window <= static_cast<int>(protocol::kMaxInFlight));
+}
+
+void Pacing::started()
+{
+    assert(may_start());
+    ++preparing_;
+}
+
+void Pacing::dropped()
+{
+    assert(preparing_ > 0);
+    --preparing_;
+}
+
+void Pacing::sent(std::uint32_t frame_id, Time now, std::optional<Time> asked)
+{
+    assert(preparing_ > 0 && frame_id > last_sent_);
+    --preparing_;
+    last_sent_ = frame_id;
+    unacknowledged_.push_back({frame_id, now, asked, std::nullopt});
+}
+
+void Pacing::written(std::uint32_t frame_id, Time now)
+{
+    const auto frame = std::find_if(unacknowledged_.begin(), unacknowledged_.end(),
+        [&](const Sent& sent) { return sent.frame_id == frame_id; });
+    if (frame != unacknowledged_.end())  // A quick client may have acknowledged it already.
+        frame->written = now;
+}
+
+std::optional<Pacing::Acknowledgement> Pacing::acknowledge(std::uint32_t frame_id, Time now)
+{
+    if (frame_id > last_sent_)
+        return std::nullopt;
+    std::optional<Acknowledgement> result;
+    while (!unacknowledged_.empty() && unacknowledged_.front().frame_id <= frame_id) {
+        const Sent& shown = unacknowledged_.front();
+        result = {now - shown.sent, std::nullopt};
+        if (shown.asked)
+            result->since_asked = now - *shown.asked;
+        unacknowledged_.pop_front();
+    }
+    return result;
+}
+
+std::chrono::steady_clock::duration Pacing::oldest_wait(Time now) const
+{
+    if (unacknowledged_.empty() || !unacknowledged_.front().written)
+        return {};
+    return now - *unacknowledged_.front().written;
+}
+
+}  // namespace farlight
