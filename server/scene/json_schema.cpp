@@ -64,7 +64,7 @@ void refuse_keys(const Json& value, const Json& part, const ScenePlace& place)
                 Json known = Json::array();
                 for (const auto& [name, also_unused] : part.at("properties").items())
                     known.push_back(name);
-                refuse(place / key, "the unknown key " + quoted(key), "one of " + listed(known));
+                refuse(place / key, "the unknown key " + in_quotes(key), "one of " + listed(known));
             }
     for (const auto& name : part.value("required", Json::array()))
         if (!value.contains(name.get<std::string>()))
@@ -117,8 +117,8 @@ void check_schema(const Json& document, std::string_view schema_text, const std:
     for (const auto& error : results)
         if (!innermost || error.context.size() > innermost->size())
             innermost = error.context;
-    refuse_at(tokens_of(innermost.value_or(std::vector<std::string>{})), document,
-        schema_document, file);
+    refuse_at(
+        tokens_of(innermost.value_or(std::vector<std::string>{})), document, schema_document, file);
 }
 
 }  // namespace farlight

@@ -18,9 +18,7 @@ constexpr std::size_t kDeepest = 100;
 
 class DocumentBuilder final : public nlohmann::json_sax<Json> {
 public:
-    DocumentBuilder(std::string_view text, std::string name)
-        : text_(text)
-        , name_(std::move(name))
+    DocumentBuilder(std::string_view text, std::string name) : text_(text), name_(std::move(name))
     {
     }
 
@@ -43,9 +41,9 @@ public:
 
     bool key(string_t& name) override
     {
+        levels_.back().key = name;
         if (levels_.back().node->contains(name))
-            refuse(here(), "the key " + quoted(name) + " a second time", "each key once");
-        levels_.back().key = std::move(name);
+            refuse(here(), "the key " + in_quotes(name) + " a second time", "each key once");
         return true;
     }
 
@@ -109,14 +107,14 @@ private:
 };
 
 // nlohmann says `[...] parse error at ...: syntax error while parsing X - Y; expected Z`.
-bool DocumentBuilder::parse_error(std::size_t position, const std::string& last_token,
-    const nlohmann::detail::exception& error)
+bool DocumentBuilder::parse_error(
+    std::size_t position, const std::string& last_token, const nlohmann::detail::exception& error)
 {
     const std::string_view read = text_.substr(0, position);
     const auto line = 1 + std::count(read.begin(), read.end(), '\n');
     const std::size_t newline = read.rfind('\n');
-    const std::size_t column = newline == std::string_view::npos ? read.size()
-                                                                 : read.size() - newline - 1;
+    const std::size_t column =
+        newline == std::string_view::npos ? read.size() : read.size() - newline - 1;
     ScenePlace place = here();
     place.pointer += (place.pointer.empty() ? "line " : " at line ") + std::to_string(line)
         + ", column " + std::to_string(column);

@@ -1,4 +1,5 @@
-// Scene: what a scene file says, on the CPU, before any GPU layout. Filled by scene_file and gltf_file.
+// Scene: what a scene file says, on the CPU, before any GPU layout. Filled by scene_file and
+// gltf_file.
 //
 // World space is right-handed, y up by convention, lengths in scene units (call them metres).
 // Radiance and reflectance are linear RGB (Rec. 709 primaries).
@@ -41,7 +42,8 @@ struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< Unit shading normals, one a position, or empty: flat.
-    std::vector<glm::uvec3> triangles;  ///< Indices into positions; counter-clockwise seen from outside.
+    std::vector<glm::uvec3>
+        triangles;  ///< Indices into positions; counter-clockwise seen from outside.
 };
 
 struct Sphere {
@@ -74,7 +76,10 @@ struct Bounds {
     glm::dvec3 upper{-1e300};
 
     void extend(const glm::dvec3& p) { lower = glm::min(lower, p), upper = glm::max(upper, p); }
-    void extend(const Bounds& b) { lower = glm::min(lower, b.lower), upper = glm::max(upper, b.upper); }
+    void extend(const Bounds& b)
+    {
+        lower = glm::min(lower, b.lower), upper = glm::max(upper, b.upper);
+    }
     bool empty() const { return !(lower.x <= upper.x); }
     glm::dvec3 center() const { return 0.5 * (lower + upper); }
     double radius() const { return 0.5 * glm::length(upper - lower); }

@@ -63,11 +63,11 @@ std::string describe(const nlohmann::json& value)
     if (value.is_array() && value.size() > 16)  // longer arrays tell nothing on one line
         return "an array of " + std::to_string(value.size()) + " values";
     if (value.is_string())
-        return quoted(value.get_ref<const std::string&>());
+        return in_quotes(value.get_ref<const std::string&>());
     return shortened(value.dump());
 }
 
-std::string quoted(std::string_view text)
+std::string in_quotes(std::string_view text)
 {
     using Json = nlohmann::json;
     return shortened(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));

@@ -26,6 +26,6 @@ struct ScenePlace {
 std::string describe(const nlohmann::json& value);
 
 /// `text` in double quotes, shortened where it is long; control characters are escaped.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace farlight

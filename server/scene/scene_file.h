@@ -15,12 +15,13 @@ struct SceneError : std::runtime_error {
 };
 
 /// Loads `.json`, `.gltf` or `.glb`, chosen by extension. Throws SceneError.
-/// Every number in the result is finite, every index in range, every mesh has at least one triangle,
-/// no triangle has zero area (dropped ones are counted in Scene::notes).
+/// Every number in the result is finite, every index in range, every mesh has at least one
+/// triangle, no triangle has zero area (dropped ones are counted in Scene::notes).
 Scene load_scene(const std::filesystem::path& file);
 
 /// The same for Farlight JSON already in memory; relative glTF paths start at `base_dir`.
 /// `name` stands for the file in error messages.
-Scene parse_scene(std::string_view json_text, const std::filesystem::path& base_dir, const std::string& name);
+Scene parse_scene(
+    std::string_view json_text, const std::filesystem::path& base_dir, const std::string& name);
 
 }  // namespace farlight

@@ -1,0 +1,234 @@
+// Walks the node tree of a glTF file: meshes become instances, the first camera the camera.
+#include "server/scene/gltf_file.h"
+
+#include "server/scene/gltf_check.h"
+#include "server/scene/gltf_container.h"
+#include "server/scene/gltf_material.h"
+#include "server/scene/gltf_mesh.h"
+#include "server/scene/gltf_model.h"
+#include "server/scene/gltf_node.h"
+#include "server/scene/mesh_repair.h"
+#include "server/scene/scene_error.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tiny_gltf.h>
+
+namespace farlight {
+
+namespace {
+
+/// A primitive as an instance needs it: its mesh, and the mesh with the other winding for
+/// instances that mirror, made when one is met.
+struct Part {
+    std::uint32_t mesh;
+    std::optional<std::uint32_t> mirrored_mesh;
+    std::uint32_t material;
+};
+
+class Reader {
+public:
+    Reader(tinygltf::Model model, const std::string& file)
+        : model_(std::move(model))
+        , root_{file, {}}
+    {
+        result_.scene.file = file;
+    }
+
+    GltfScene read()
+    {
+        result_.scene.materials = read_gltf_materials(model_, result_.scene.notes);
+        read_nodes();
+        if (result_.scene.objects.empty())
+            refuse(root_ / "scenes", "no mesh of triangles in the scene's nodes", "at least one");
+        if (camera_node_)
+            place_camera();
+        note_the_rest();
+        return std::move(result_);
+    }
+
+private:
+    void read_nodes();
+    void read_node(const GltfNode& node);
+    void add_part(const GltfNode& node, Part& part, const std::string& name);
+    std::vector<Part>& parts_of(std::size_t mesh);
+    std::uint32_t default_material();
+    void place_camera();
+    void note_the_rest();
+
+    tinygltf::Model model_;
+    ScenePlace root_;
+    GltfScene result_;
+    std::map<std::size_t, std::vector<Part>> parts_;  // by glTF mesh
+    std::optional<std::uint32_t> default_material_;
+    std::optional<GltfNode> camera_node_;
+    MeshRepairs repairs_;
+    std::size_t skipped_primitives_ = 0;  // points and lines
+    std::size_t flat_instances_ = 0;  // whose transform has no volume
+};
+
+void Reader::read_nodes()
+{
+    const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
+    result_.scene.name = model_.scenes[scene].name;
+    if (result_.scene.name.empty())
+        result_.scene.name = std::filesystem::path(root_.file).stem().string();
+    for (const GltfNode& node : gltf_nodes(model_, scene, root_))
+        read_node(node);
+}
+
+void Reader::read_node(const GltfNode& node)
+{
+    const tinygltf::Node& found = model_.nodes[node.index];
+    if (found.camera >= 0 && !camera_node_
+        && model_.cameras[static_cast<std::size_t>(found.camera)].type == "perspective")
+        camera_node_ = node;
+    if (found.mesh < 0)
+        return;
+    const auto mesh = static_cast<std::size_t>(found.mesh);
+    std::string name = found.name.empty() ? model_.meshes[mesh].name : found.name;
+    if (name.empty())
+        name = "node " + std::to_string(node.index);
+    std::vector<Part>& parts = parts_of(mesh);
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        add_part(node, parts[i],
+            parts.size() == 1 ? name : std::string(name).append("/") + std::to_string(i));
+}
+
+void Reader::add_part(const GltfNode& node, Part& part, const std::string& name)
+{
+    const glm::dmat3 linear(node.world_from_node);
+    const double volume = glm::determinant(linear);
+    // What a float keeps of the axes' lengths: below it, the instance has no inverse on the GPU.
+    const double least = std::numeric_limits<float>::epsilon() * glm::length(linear[0])
+        * glm::length(linear[1]) * glm::length(linear[2]);
+    if (!(std::abs(volume) > least)) {
+        ++flat_instances_;
+        return;
+    }
+    std::uint32_t mesh = part.mesh;
+    if (volume < 0) {
+        if (!part.mirrored_mesh) {
+            part.mirrored_mesh = static_cast<std::uint32_t>(result_.scene.meshes.size());
+            result_.scene.meshes.push_back(rewound(result_.scene.meshes[part.mesh]));
+        }
+        mesh = *part.mirrored_mesh;
+    }
+    result_.scene.objects.push_back(
+        {name, part.material, MeshInstance{mesh, node.world_from_node}});
+}
+
+std::vector<Part>& Reader::parts_of(std::size_t mesh)
+{
+    const auto [entry, is_new] = parts_.try_emplace(mesh);
+    if (!is_new)
+        return entry->second;
+    const ScenePlace place = root_ / "meshes" / mesh / "primitives";
+    const tinygltf::Mesh& found = model_.meshes[mesh];
+    for (std::size_t i = 0; i < found.primitives.size(); ++i) {
+        const tinygltf::Primitive& primitive = found.primitives[i];
+        if (!has_triangles(primitive)) {
+            ++skipped_primitives_;
+            continue;
+        }
+        Mesh read = read_gltf_primitive(model_, primitive, place / i, repairs_);
+        read.name = found.name;
+        entry->second.push_back({static_cast<std::uint32_t>(result_.scene.meshes.size()), {},
+            primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material)
+                                    : default_material()});
+        result_.scene.meshes.push_back(std::move(read));
+    }
+    return entry->second;
+}
+
+std::uint32_t Reader::default_material()
+{
+    if (!default_material_) {
+        default_material_ = static_cast<std::uint32_t>(result_.scene.materials.size());
+        result_.scene.materials.push_back({.name = "default"});
+    }
+    return *default_material_;
+}
+
+/// A glTF camera looks along its -z; it has no target, so the point nearest to the scene's middle
+/// stands for it.
+void Reader::place_camera()
+{
+    const glm::dmat4& world = camera_node_->world_from_node;
+    const auto& found =
+        model_.cameras[static_cast<std::size_t>(model_.nodes[camera_node_->index].camera)];
+    const glm::dvec3 position(world[3]);
+    const glm::dvec3 view = glm::normalize(-glm::dvec3(world[2]));
+    const glm::dvec3 up = glm::normalize(glm::dvec3(world[1]));
+    if (!(glm::length(view) > 0) || !(glm::length(up) > 0))
+        return;  // a flat transform has no direction
+    const Bounds bounds = scene_bounds(result_.scene);
+    const double ahead = glm::dot(bounds.center() - position, view);
+    const double distance = ahead > 0 ? ahead : std::max(bounds.radius(), glm::length(position));
+    result_.scene.camera = {.position = position,
+        .target = position + distance * view,
+        .up = up,
+        .vertical_fov_degrees = glm::degrees(found.perspective.yfov)};
+    result_.has_camera = true;
+}
+
+void Reader::note_the_rest()
+{
+    std::vector<std::string>& notes = result_.scene.notes;
+    for (std::string& note : repairs_.notes())
+        notes.push_back(std::move(note));
+    if (skipped_primitives_ > 0)
+        notes.push_back(
+            std::to_string(skipped_primitives_) + " primitives of points or lines left out");
+    if (flat_instances_ > 0)
+        notes.push_back(
+            std::to_string(flat_instances_) + " objects left out: a scale of 0 makes them flat");
+    if (default_material_)
+        notes.emplace_back("primitives without a material are grey, albedo 0.8");
+}
+
+std::string joined(const std::vector<std::string>& names)
+{
+    std::string list;
+    for (const std::string& name : names)
+        list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+/// Notes on what the document holds and nobody here reads.
+void note_unread(const nlohmann::json& document, std::vector<std::string>& notes)
+{
+    const auto count = [&](const char* key) {
+        return document.contains(key) ? document[key].size() : 0;
+    };
+    if (const std::size_t textures = count("textures"); textures > 0)
+        notes.push_back(std::to_string(textures) + (textures == 1 ? " texture is" : " textures are")
+            + " not read yet: base colour factors stand for them");
+    if (count("animations") + count("skins") > 0)
+        notes.emplace_back("animations and skins are not read: everything rests");
+    const std::vector<std::string> unread = unread_gltf_extensions(document);
+    if (!unread.empty())
+        notes.push_back("extensions that are not read: " + joined(unread));
+}
+
+}  // namespace
+
+bool is_gltf(const std::filesystem::path& file)
+{
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension == ".gltf" || extension == ".glb";
+}
+
+GltfScene load_gltf(const std::filesystem::path& file)
+{
+    const GltfContainer container = open_gltf_container(file);
+    check_gltf(container.document, file.string());
+    GltfScene result = Reader(to_tinygltf(container, file.string()), file.string()).read();
+    note_unread(container.document, result.scene.notes);
+    return result;
+}
+
+}  // namespace farlight

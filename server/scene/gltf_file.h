@@ -1,0 +1,22 @@
+// glTF 2.0 (.gltf, .glb) -> Scene: geometry, node transforms, base colour and emissive factors,
+// the first perspective camera. Textures, skins, morph targets and animations are left out.
+#pragma once
+
+#include "server/scene/scene.h"
+
+#include <filesystem>
+
+namespace farlight {
+
+struct GltfScene {
+    Scene scene;  ///< All objects are MeshInstances.
+    bool has_camera = false;  ///< Otherwise scene.camera says nothing.
+};
+
+/// Throws SceneError.
+GltfScene load_gltf(const std::filesystem::path& file);
+
+/// Whether the extension is one of a glTF file, whatever its case.
+bool is_gltf(const std::filesystem::path& file);
+
+}  // namespace farlight

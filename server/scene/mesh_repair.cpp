@@ -1,0 +1,162 @@
+// Repairs of a mesh, counted.
+#include "server/scene/mesh_repair.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+
+namespace farlight {
+
+namespace {
+
+bool bounded(const glm::vec3& p)
+{
+    return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate
+        && std::abs(p.z) <= kLargestCoordinate;  // false for NaN
+}
+
+/// Twice the area times the unit normal; zero where the corners lie on a line as far as float
+/// positions can tell.
+glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& triangle)
+{
+    const glm::dvec3 a = mesh.positions[triangle.x];
+    const glm::dvec3 u = glm::dvec3(mesh.positions[triangle.y]) - a;
+    const glm::dvec3 v = glm::dvec3(mesh.positions[triangle.z]) - a;
+    const glm::dvec3 area = glm::cross(u, v);
+    // The cross product's own rounding, with room: its terms are products of two edges.
+    const double noise = 16 * std::numeric_limits<double>::epsilon();
+    return glm::length(area) > noise * glm::length(u) * glm::length(v) ? area : glm::dvec3(0);
+}
+
+void drop_unused_positions(Mesh& mesh)
+{
+    constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> moved(mesh.positions.size(), kUnused);
+    for (const glm::uvec3& triangle : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            moved[triangle[corner]] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+        if (moved[i] != kUnused) {
+            mesh.positions[kept] = mesh.positions[i];
+            if (!mesh.normals.empty())
+                mesh.normals[kept] = mesh.normals[i];
+            moved[i] = kept++;
+        }
+    mesh.positions.resize(kept);
+    mesh.normals.resize(mesh.normals.empty() ? 0 : kept);
+    for (glm::uvec3& triangle : mesh.triangles)
+        triangle = {moved[triangle.x], moved[triangle.y], moved[triangle.z]};
+}
+
+/// Sum of the area vectors of the faces around each position.
+std::vector<glm::dvec3> face_normals(const Mesh& mesh)
+{
+    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
+    for (const glm::uvec3& triangle : mesh.triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            sums[triangle[corner]] += area_vector(mesh, triangle);
+    return sums;
+}
+
+std::size_t repair_normals(Mesh& mesh)
+{
+    std::size_t replaced = 0;
+    std::vector<glm::dvec3> around;
+    for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+        const double length = glm::length(glm::dvec3(mesh.normals[i]));
+        if (length > 0 && length <= std::numeric_limits<float>::max()) {
+            mesh.normals[i] = glm::dvec3(mesh.normals[i]) / length;
+            continue;
+        }
+        ++replaced;
+        if (around.empty())
+            around = face_normals(mesh);
+        const double faces = glm::length(around[i]);
+        mesh.normals[i] = faces > 0 ? around[i] / faces : glm::dvec3(0, 1, 0);
+    }
+    return replaced;
+}
+
+std::string counted(std::size_t count, const char* one, const char* many)
+{
+    return count == 1 ? std::string("1 ") + one : std::to_string(count) + " " + many;
+}
+
+}  // namespace
+
+MeshRepairs& MeshRepairs::operator+=(const MeshRepairs& other)
+{
+    zero_area_triangles += other.zero_area_triangles;
+    unbounded_triangles += other.unbounded_triangles;
+    replaced_normals += other.replaced_normals;
+    return *this;
+}
+
+std::vector<std::string> MeshRepairs::notes() const
+{
+    std::vector<std::string> notes;
+    if (zero_area_triangles > 0)
+        notes.push_back(
+            counted(zero_area_triangles, "triangle", "triangles") + " of zero area left out");
+    if (unbounded_triangles > 0)
+        notes.push_back(counted(unbounded_triangles, "triangle", "triangles")
+            + " with a corner that is not finite (or beyond 1e18) left out");
+    if (replaced_normals > 0)
+        notes.push_back(counted(replaced_normals, "shading normal", "shading normals")
+            + " without a direction replaced by the faces around");
+    return notes;
+}
+
+MeshRepairs repair_mesh(Mesh& mesh)
+{
+    assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
+    MeshRepairs repairs;
+    std::vector<glm::uvec3> kept;
+    kept.reserve(mesh.triangles.size());
+    for (const glm::uvec3& triangle : mesh.triangles) {
+        assert(std::max({triangle.x, triangle.y, triangle.z}) < mesh.positions.size());
+        if (!bounded(mesh.positions[triangle.x]) || !bounded(mesh.positions[triangle.y])
+            || !bounded(mesh.positions[triangle.z]))
+            ++repairs.unbounded_triangles;
+        else if (area_vector(mesh, triangle) == glm::dvec3(0))
+            ++repairs.zero_area_triangles;
+        else
+            kept.push_back(triangle);
+    }
+    mesh.triangles = std::move(kept);
+    drop_unused_positions(mesh);
+    repairs.replaced_normals = repair_normals(mesh);
+    return repairs;
+}
+
+Mesh unit_cube()
+{
+    Mesh cube{.name = "cube"};
+    for (int i = 0; i < 8; ++i)  // corner i: bit 0 is x, bit 1 y, bit 2 z
+        cube.positions.emplace_back((i & 1) - 0.5F, ((i >> 1) & 1) - 0.5F, ((i >> 2) & 1) - 0.5F);
+    constexpr std::array<glm::uvec4, 6> kFaces{{
+        {0, 4, 6, 2},  // -x
+        {1, 3, 7, 5},  // +x
+        {0, 1, 5, 4},  // -y
+        {2, 6, 7, 3},  // +y
+        {0, 2, 3, 1},  // -z
+        {4, 5, 7, 6},  // +z
+    }};
+    for (const glm::uvec4& face : kFaces) {
+        cube.triangles.emplace_back(face.x, face.y, face.z);
+        cube.triangles.emplace_back(face.x, face.z, face.w);
+    }
+    return cube;
+}
+
+Mesh rewound(const Mesh& mesh)
+{
+    Mesh turned = mesh;
+    for (glm::uvec3& triangle : turned.triangles)
+        std::swap(triangle.y, triangle.z);
+    return turned;
+}
+
+}  // namespace farlight

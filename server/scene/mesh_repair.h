@@ -1,0 +1,35 @@
+// What is done to every mesh from a file so that the rest may rely on it.
+#pragma once
+
+#include "server/scene/scene.h"
+
+#include <cstddef>
+
+namespace farlight {
+
+/// The largest coordinate that is taken: its square is still a finite float.
+inline constexpr double kLargestCoordinate = 1e18;
+
+struct MeshRepairs {
+    std::size_t zero_area_triangles = 0;  ///< Dropped.
+    std::size_t unbounded_triangles = 0;  ///< Dropped: a corner is not finite or too far out.
+    std::size_t replaced_normals = 0;  ///< Not finite or zero; now the mean of the faces around.
+
+    MeshRepairs& operator+=(const MeshRepairs& other);
+    /// One sentence a kind of repair that was made, for Scene::notes.
+    std::vector<std::string> notes() const;
+};
+
+/// Drops triangles that have no area or no finite corner, then positions that no triangle needs any
+/// more; brings the normals to unit length. The mesh may come out empty.
+/// Asserts that triangles index positions and that there are as many normals as positions, or none.
+MeshRepairs repair_mesh(Mesh& mesh);
+
+/// A cube from -0.5 to 0.5 on each axis, faces flat and outward.
+Mesh unit_cube();
+
+/// The mesh with each triangle's winding turned about: for instances that mirror, so that triangles
+/// stay counter-clockwise seen from outside in world space.
+Mesh rewound(const Mesh& mesh);
+
+}  // namespace farlight

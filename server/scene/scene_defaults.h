@@ -1,0 +1,17 @@
+// What a model without camera or light gets, so that any glTF file shows a picture.
+#pragma once
+
+#include "server/scene/scene.h"
+
+namespace farlight {
+
+/// Sees all of `bounds` from the front, turned to the right and slightly from above. y is up.
+CameraPose framing_camera(const Bounds& bounds);
+
+/// Gives `scene` framing_camera() and says so in its notes.
+void add_framing_camera(Scene& scene);
+
+/// If neither an object nor the background emits: background radiance 1, with a note.
+void add_default_light(Scene& scene);
+
+}  // namespace farlight
