@@ -116,7 +116,9 @@ private:
 
 void Reader::read_materials()
 {
-    for (const auto& [name, value] : document_.value("materials", Json::object()).items()) {
+    if (!document_.contains("materials"))
+        return;
+    for (const auto& [name, value] : document_["materials"].items()) {
         material_by_name_[name] = static_cast<std::uint32_t>(scene_.materials.size());
         Material& material = scene_.materials.emplace_back();
         material.name = name;
