@@ -62,6 +62,11 @@ private:
         return found == document_.end() ? empty : *found;
     }
 
+    const Json& item(const char* name, const Json& index) const
+    {
+        return list(name)[index.get<std::size_t>()];
+    }
+
     void each(const char* name, Check check_one) const
     {
         for (std::size_t i = 0; i < list(name).size(); ++i)
@@ -129,7 +134,7 @@ void Checker::check_extensions() const
 void Checker::check_buffer_view(const Json& view, const ScenePlace& place) const
 {
     check_index(view, "buffer", "buffers", place);
-    const std::uint64_t length = number(list("buffers")[view["buffer"]], "byteLength");
+    const std::uint64_t length = number(item("buffers", view["buffer"]), "byteLength");
     const std::uint64_t offset = number(view, "byteOffset");
     if (offset >= length)
         refuse(place / "byteOffset", std::to_string(offset),
@@ -148,7 +153,7 @@ void Checker::check_accessor(const Json& accessor, const ScenePlace& place) cons
     const std::uint64_t size = lanes * component_size(accessor["componentType"].get<int>());
     const std::uint64_t count = number(accessor, "count");
     if (accessor.contains("bufferView")) {
-        const Json& view = list("bufferViews")[accessor["bufferView"]];
+        const Json& view = item("bufferViews", accessor["bufferView"]);
         const std::uint64_t stride = number(view, "byteStride", size);
         if (stride < size)
             refuse(root_ / "bufferViews" / accessor["bufferView"].get<std::size_t>() / "byteStride",
@@ -174,7 +179,7 @@ void Checker::check_sparse(const Json& accessor, const ScenePlace& place) const
             "at most " + accessor["count"].dump() + ", the accessor's count");
     const auto check_part = [&](const char* key, std::uint64_t size) {
         check_index(sparse[key], "bufferView", "bufferViews", place / key);
-        const Json& view = list("bufferViews")[sparse[key]["bufferView"]];
+        const Json& view = item("bufferViews", sparse[key]["bufferView"]);
         check_range(
             {number(sparse[key], "byteOffset"), count, size, size, number(view, "byteLength")},
             place / key);
@@ -194,7 +199,7 @@ void Checker::check_mesh(const Json& mesh, const ScenePlace& place) const
 void Checker::check_vectors(const Json& attributes, const char* name, const ScenePlace& place) const
 {
     check_index(attributes, name, "accessors", place);
-    const Json& accessor = list("accessors")[attributes[name]];
+    const Json& accessor = item("accessors", attributes[name]);
     if (accessor["type"] != "VEC3" || accessor["componentType"] == kUnsignedInt)
         refuse(place / name,
             accessor["type"].get<std::string>() + " of component type "
@@ -211,8 +216,8 @@ void Checker::check_primitive(const Json& primitive, const ScenePlace& place) co
     check_vectors(attributes, "POSITION", place / "attributes");
     if (attributes.contains("NORMAL")) {
         check_vectors(attributes, "NORMAL", place / "attributes");
-        const Json& normals = list("accessors")[attributes["NORMAL"]]["count"];
-        const Json& positions = list("accessors")[attributes["POSITION"]]["count"];
+        const Json& normals = item("accessors", attributes["NORMAL"])["count"];
+        const Json& positions = item("accessors", attributes["POSITION"])["count"];
         if (normals != positions)
             refuse(place / "attributes" / "NORMAL", normals.dump() + " normals",
                 positions.dump() + ", one a position");
@@ -220,7 +225,7 @@ void Checker::check_primitive(const Json& primitive, const ScenePlace& place) co
     if (!primitive.contains("indices"))
         return;
     check_index(primitive, "indices", "accessors", place);
-    const Json& accessor = list("accessors")[primitive["indices"]];
+    const Json& accessor = item("accessors", primitive["indices"]);
     const int type = accessor["componentType"].get<int>();
     if (accessor["type"] != "SCALAR"
         || (type != kUnsignedByte && type != kUnsignedShort && type != kUnsignedInt))
