@@ -7,6 +7,20 @@
 
 namespace farlight {
 
+std::optional<std::string> refuse_extent(
+    std::uint64_t width, std::uint64_t height, int max_dimension)
+{
+    const auto limit = static_cast<std::uint64_t>(max_dimension);
+    if (width >= 1 && height >= 1 && width <= limit && height <= limit
+        && width * height <= static_cast<std::uint64_t>(kMostPixels))
+        return std::nullopt;
+    const auto text = [](std::uint64_t w, std::uint64_t h) {
+        return std::to_string(w) + "x" + std::to_string(h);
+    };
+    return "size is " + text(width, height) + ", expected 1x1 to " + text(limit, limit)
+        + " and at most " + std::to_string(kMostPixels) + " pixels";
+}
+
 DrawPlan::DrawPlan(
     protocol::Mode mode, const RenderRequest& first, protocol::Format format, Time now)
     : mode_(mode)

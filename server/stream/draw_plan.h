@@ -12,11 +12,20 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 
 namespace farlight {
 
 /// Frames of an unmoved camera after which the picture counts as resting and is refined.
 constexpr int kFramesUntilRest = 2;
+
+/// Larger pictures than 8K are refused whatever the device: a frame must fit a sane amount of
+/// memory.
+constexpr std::int64_t kMostPixels = 7680LL * 4320;
+
+/// Why a picture of this size cannot be drawn, or nothing.
+std::optional<std::string> refuse_extent(
+    std::uint64_t width, std::uint64_t height, int max_dimension);
 
 /// One frame to be drawn, and how to label it.
 struct Draw {

@@ -13,18 +13,10 @@ using protocol::Error;
 using protocol::ErrorCode;
 using protocol::Mode;
 
-/// Larger pictures than 8K are refused whatever the device: a frame must fit a sane amount of
-/// memory.
-constexpr std::int64_t kMostPixels = 7680LL * 4320;
 /// Frames of one client under way may hold this many bytes; one frame may always be under way.
 constexpr std::int64_t kMostBytesInFlight = 256LL << 20U;
 /// JPEG quality of a resting picture on its way to the lossless one.
 constexpr int kRestingQuality = 90;
-
-std::string to_text(std::int64_t width, std::int64_t height)
-{
-    return std::to_string(width) + "x" + std::to_string(height);
-}
 
 std::uint32_t microseconds(double milliseconds)
 {
@@ -162,15 +154,12 @@ bool Session::try_setting(
 
 std::optional<Extent> Session::checked_extent(std::uint32_t width, std::uint32_t height)
 {
-    const auto limit = static_cast<std::uint32_t>(defaults_->max_dimension);
-    if (width <= limit && height <= limit
-        && static_cast<std::int64_t>(width) * height <= kMostPixels)
-        return Extent{static_cast<int>(width), static_cast<int>(height)};
-    refuse({ErrorCode::kOutOfRange,
-        "size is " + to_text(width, height) + ", expected at most " + to_text(limit, limit)
-            + " and at most " + std::to_string(kMostPixels) + " pixels",
-        "size", false});
-    return std::nullopt;
+    if (std::optional<std::string> problem =
+            refuse_extent(width, height, defaults_->max_dimension)) {
+        refuse({ErrorCode::kOutOfRange, std::move(*problem), "size", false});
+        return std::nullopt;
+    }
+    return Extent{static_cast<int>(width), static_cast<int>(height)};
 }
 
 void Session::refuse(Error error)
@@ -360,6 +349,8 @@ void Session::shut_down(const std::string& reason, std::uint32_t reconnect_ms)
 
 void Session::close(CloseCode code, std::string reason)
 {
+    if (closed_)
+        return;
     closed_ = true;
     ready_.clear();
     slot_->take();

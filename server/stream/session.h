@@ -101,6 +101,8 @@ public:
     void tick(Time now);
     void renderer_failed(const std::string& why);
     void shut_down(const std::string& reason, std::uint32_t reconnect_ms);
+    /// Only the first close counts; afterwards nothing has an effect.
+    void close(CloseCode code, std::string reason);
 
     /// The next frame to write, when the socket is free for one.
     std::optional<OutgoingFrame> take_frame(Time now);
@@ -133,7 +135,6 @@ private:
     std::optional<Extent> checked_extent(std::uint32_t width, std::uint32_t height);
     void refuse(protocol::Error error);
     void say_state();
-    void close(CloseCode code, std::string reason);
 
     std::shared_ptr<const SessionDefaults> defaults_;
     std::string name_;

@@ -1,0 +1,61 @@
+// Hub: what all connections of one listener share. Used on the network thread, except where said.
+#pragma once
+
+#include "server/stream/metrics.h"
+#include "server/stream/render_service.h"
+#include "server/stream/session.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <functional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace farlight {
+
+class Connection;
+
+struct StreamOptions {
+    std::string bind = "127.0.0.1";
+    std::uint16_t port = 8080;  ///< 0: any free one.
+    std::vector<std::string> allowed_origins;  ///< Besides the server's own; "*" allows all.
+    int max_clients = 64;
+    RenderSettings settings;  ///< Defaults of every new session.
+
+    // Deadlines; tests shorten them.
+    SessionDeadlines session;
+    std::chrono::milliseconds http_request{5000};  ///< From connecting to the end of the header.
+    std::chrono::milliseconds write_progress{10000};  ///< The socket takes at least a byte in this.
+    std::chrono::milliseconds silence{30000};  ///< No pong for this long: the peer is gone.
+    std::chrono::milliseconds close_handshake{2000};
+    std::chrono::milliseconds drain{5000};  ///< Shutting down takes no longer.
+};
+
+struct Hub {
+    Hub(RenderService& service, StreamOptions stream_options);
+
+    RenderService& renderer;  ///< Thread-safe.
+    const StreamOptions options;
+    const std::shared_ptr<const SessionDefaults> session_defaults;
+    Metrics metrics;  ///< Thread-safe.
+    std::set<Connection*> connections;
+    int http_connections = 0;
+    std::uint64_t sessions_opened = 0;
+    bool draining = false;
+    std::shared_ptr<FrameSource> snapshot;  ///< Being drawn: one at a time.
+    std::function<void()> on_connection_gone;
+
+    // Last, so that they go first: `context` holds connections, whose strands are those of
+    // `workers`.
+    boost::asio::thread_pool workers;  ///< Encode, and detach from the renderer. Thread-safe.
+    boost::asio::io_context context;  ///< The network thread's. Posting to it is thread-safe.
+
+    /// Empty, or why no client can be served now.
+    std::string not_ready() const;
+    int frames_in_flight() const;
+    /// Detaches without holding up the network thread: a frame may be being drawn.
+    void detach_later(std::shared_ptr<FrameSource> source);
+};
+
+}  // namespace farlight

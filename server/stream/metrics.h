@@ -1,0 +1,54 @@
+// Metrics: what /metrics tells, in Prometheus' words. Thread-safe.
+#pragma once
+
+#include "protocol/messages.h"
+#include "server/render/renderer.h"
+#include "server/stream/pacing.h"
+
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+#include <string>
+#include <string_view>
+
+namespace farlight {
+
+class Metrics {
+public:
+    explicit Metrics(const RendererDescription& description);
+
+    void connection_opened();
+    void connection_closed(int code);
+    void handshake_rejected(const std::string& reason);
+    void message_refused();
+    void frame_drawn(double seconds);
+    void frame_encoded(protocol::Format format, double seconds);
+    void frame_sent(std::size_t bytes);
+    void frame_dropped(std::string_view reason);
+    void frame_acknowledged(const Pacing::Acknowledgement& times);
+
+    /// The text of /metrics, with what only the caller knows filled in.
+    std::string text(std::uint64_t frames_rendered, int frames_in_flight);
+
+private:
+    prometheus::Registry registry_;
+    prometheus::Gauge& connections_;
+    prometheus::Gauge& frames_in_flight_;
+    prometheus::Gauge& resident_memory_;
+    prometheus::Gauge& open_fds_;
+    prometheus::Counter& frames_rendered_;
+    prometheus::Counter& frames_sent_;
+    prometheus::Counter& sent_bytes_;
+    prometheus::Counter& messages_refused_;
+    prometheus::Histogram& render_seconds_;
+    prometheus::Histogram& encode_seconds_;
+    prometheus::Histogram& ack_rtt_seconds_;
+    prometheus::Histogram& input_to_ack_seconds_;
+    prometheus::Family<prometheus::Counter>& frames_encoded_;
+    prometheus::Family<prometheus::Counter>& frames_dropped_;
+    prometheus::Family<prometheus::Counter>& closes_;
+    prometheus::Family<prometheus::Counter>& handshakes_rejected_;
+};
+
+}  // namespace farlight
