@@ -40,15 +40,15 @@ public:
     void check() const
     {
         check_extensions();
+        if (list("scenes").empty())
+            refuse(root_ / "scenes", "no scene", "at least one scene");
+        if (list("meshes").empty())
+            refuse(root_ / "meshes", "no mesh", "at least one mesh");
         each("bufferViews", &Checker::check_buffer_view);
         each("accessors", &Checker::check_accessor);
         each("meshes", &Checker::check_mesh);
         each("nodes", &Checker::check_node);
         each("scenes", &Checker::check_scene);
-        if (list("scenes").empty())
-            refuse(root_ / "scenes", "no scene", "at least one scene");
-        if (list("meshes").empty())
-            refuse(root_ / "meshes", "no mesh", "at least one mesh");
         check_index(document_, "scene", "scenes", root_);
     }
 

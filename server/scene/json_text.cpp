@@ -91,9 +91,11 @@ private:
     ScenePlace here() const
     {
         ScenePlace place{name_, {}};
-        for (const Level& level : levels_) {
-            if (level.node->is_array())
-                place = place / level.node->size();
+        for (std::size_t i = 0; i < levels_.size(); ++i) {
+            const Level& level = levels_[i];
+            const bool innermost = i + 1 == levels_.size();
+            if (level.node->is_array())  // the level within is an element already
+                place = place / (level.node->size() - (innermost ? 0 : 1));
             else if (!level.key.empty())
                 place = place / level.key;
         }
@@ -129,7 +131,7 @@ bool DocumentBuilder::parse_error(
     const std::string_view found = what.substr(reason == std::string_view::npos ? 0 : reason,
         wanted == std::string_view::npos ? std::string_view::npos : wanted - reason);
     refuse(place, "broken JSON " + std::string(found),
-        wanted == std::string_view::npos ? "JSON" : what.substr(wanted + 11));  // "; expected "
+        wanted == std::string_view::npos ? "valid JSON" : what.substr(wanted + 11));  // "; expected "
 }
 
 }  // namespace

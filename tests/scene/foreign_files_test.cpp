@@ -1,0 +1,48 @@
+// Files nobody here made, where they are to be found: each loads or is refused, none crashes.
+#include "server/scene/scene_file.h"
+
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+namespace farlight {
+namespace {
+
+TEST(ForeignFiles, KhronosSamplesAndMalformedFilesLoadOrAreRefused)
+{
+    const std::filesystem::path folder = "/usr/share/assimp/models/glTF2";
+    if (!std::filesystem::exists(folder))
+        GTEST_SKIP() << "Debian's assimp-testmodels is not installed";
+    int loaded = 0;
+    int refused = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+        const std::string extension = entry.path().extension().string();
+        if (extension != ".gltf" && extension != ".glb")
+            continue;
+        try {
+            const Scene scene = load_scene(entry.path());
+            EXPECT_FALSE(scene_bounds(scene).empty()) << entry.path();
+            ++loaded;
+        } catch (const SceneError& error) {
+            EXPECT_NE(std::string(error.what()).find(", expected "), std::string::npos);
+            ++refused;
+        }
+    }
+    EXPECT_GT(loaded, 20);
+    EXPECT_GT(refused, 10);
+}
+
+TEST(ForeignFiles, TheBalloonLoads)
+{
+    const char* const data = std::getenv("FARLIGHT_DATA");
+    if (data == nullptr)
+        GTEST_SKIP() << "FARLIGHT_DATA does not name a folder with balloon/scene.gltf";
+    const Scene scene = load_scene(std::filesystem::path(data) / "balloon" / "scene.gltf");
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : scene.meshes)
+        triangles += mesh.triangles.size();
+    EXPECT_EQ(triangles, 35698U);
+    EXPECT_EQ(scene.materials.size(), 37U);
+}
+
+}  // namespace
+}  // namespace farlight

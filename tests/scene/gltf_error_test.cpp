@@ -1,0 +1,238 @@
+// Malformed glTF: each table row breaks a good file in one place.
+#include "server/scene/scene_file.h"
+#include "tests/scene/gltf_builder.h"
+#include "tests/scene/refusal.h"
+#include "tests/scene/temp_folder.h"
+
+#include <gmock/gmock.h>
+
+namespace farlight {
+namespace {
+
+using Json = nlohmann::json;
+
+struct BadGltf {
+    const char* name;
+    const char* place;  // JSON pointer to what is changed
+    const char* value;  // JSON; empty removes it
+    const char* error;
+};
+void PrintTo(const BadGltf& bad, std::ostream* out)
+{
+    *out << bad.place << " = " << bad.value;
+}
+
+class BadGltfTest : public testing::TestWithParam<BadGltf> { };
+
+TEST_P(BadGltfTest, SaysWhereAndWhy)
+{
+    const BadGltf& bad = GetParam();
+    GltfBuilder gltf = triangle_gltf();
+    const Json::json_pointer place(bad.place);
+    if (*bad.value == '\0')
+        gltf.document[place.parent_pointer()].erase(place.back());
+    else
+        gltf.document[place] = Json::parse(bad.value);
+    const TempFolder folder;
+    const auto file = folder.path() / "bad.glb";
+    gltf.write_glb(file);
+    EXPECT_EQ(refusal(file.string(), [&] { load_scene(file); }), bad.error);
+}
+
+const auto kName = [](const auto& row) { return row.param.name; };
+
+INSTANTIATE_TEST_SUITE_P(Document, BadGltfTest,
+    testing::Values(BadGltf{"OldVersion", "/asset/version", "\"1.0\"",
+                        "/asset/version: found \"1.0\", expected a glTF version 2.x"},
+        BadGltf{"NoAsset", "/asset", "",
+            "found no key \"asset\", expected a glTF 2.0 object with asset, scenes, nodes, "
+            "meshes, ..."},
+        BadGltf{"Draco", "/extensionsRequired", R"(["KHR_draco_mesh_compression", "X_other"])",
+            "/extensionsRequired: found KHR_draco_mesh_compression, X_other, expected none but "
+            "extensions that Farlight reads: KHR_materials_emissive_strength, "
+            "KHR_mesh_quantization"},
+        BadGltf{"NoScenes", "/scenes", "", "/scenes: found no scene, expected at least one scene"},
+        BadGltf{"WrongScene", "/scene", "1",
+            "/scene: found index 1, expected less than 1, the number of scenes"},
+        BadGltf{"SceneOfNothing", "/scenes/0/nodes", "[]",
+            "/scenes: found no mesh of triangles in the scene's nodes, expected at least one"},
+        BadGltf{"WrongRoot", "/scenes/0/nodes", "[4]",
+            "/scenes/0/nodes/0: found index 4, expected less than 1, the number of nodes"}),
+    kName);
+
+INSTANTIATE_TEST_SUITE_P(Bytes, BadGltfTest,
+    testing::Values(
+        BadGltf{"BufferLongerThanItsBytes", "/buffers/0/byteLength", "4000",
+            "/buffers/0/byteLength: found 4000, expected at most the 44 bytes there are"},
+        BadGltf{"BufferFileMissing", "/buffers/0/uri", "\"none.bin\"",
+            "/buffers/0/uri: found \"none.bin\", and no such file, expected a file of bytes"},
+        BadGltf{"BufferFromTheNet", "/buffers/0/uri", "\"http://example.com/a.bin\"",
+            "/buffers/0/uri: found \"http://example.com/a.bin\", expected a data URI or a path "
+            "relative to the file"},
+        BadGltf{"BufferFromTheRoot", "/buffers/0/uri", "\"/dev/zero\"",
+            "/buffers/0/uri: found \"/dev/zero\", expected a data URI or a path relative to the "
+            "file"},
+        BadGltf{"ViewOfNoBuffer", "/bufferViews/0/buffer", "1",
+            "/bufferViews/0/buffer: found index 1, expected less than 1, the number of buffers"},
+        BadGltf{"ViewBeyondBuffer", "/bufferViews/1/byteLength", "9",
+            "/bufferViews/1/byteLength: found 9, expected at most 6, what the buffer still holds"},
+        BadGltf{"ViewStartsBeyondBuffer", "/bufferViews/1/byteOffset", "42",
+            "/bufferViews/1/byteOffset: found 42, expected less than 42, the buffer's byteLength"},
+        BadGltf{"AccessorOfNoView", "/accessors/0/bufferView", "7",
+            "/accessors/0/bufferView: found index 7, expected less than 2, the number of "
+            "bufferViews"},
+        BadGltf{"AccessorStartsBeyondView", "/accessors/0/byteOffset", "28",
+            "/accessors/0/byteOffset: found 28, expected room for 12 bytes in a buffer view of "
+            "36"},
+        BadGltf{"AccessorBeyondView", "/accessors/0/count", "4",
+            "/accessors/0/count: found 4, expected at most 3, what the buffer view holds"},
+        BadGltf{"AccessorCountHuge", "/accessors/0/count", "4294967295",
+            "/accessors/0/count: found 4294967295, expected at most 3, what the buffer view "
+            "holds"},
+        BadGltf{"AccessorCountNegative", "/accessors/0/count", "-1",
+            "/accessors/0/count: found -1, expected an integer from 1 to 4294967295"},
+        BadGltf{"ZerosWithoutEnd", "/accessors/0",
+            R"({"count": 4294967295, "componentType": 5126, "type": "VEC3"})",
+            "/accessors/0/count: found 4294967295, expected at most 16777216 without a "
+            "bufferView"},
+        BadGltf{"StrideTooSmall", "/bufferViews/0/byteStride", "8",
+            "/bufferViews/0/byteStride: found 8, expected at least 12, an element of "
+            "/accessors/0"},
+        BadGltf{"ComponentType", "/accessors/0/componentType", "5124",
+            "/accessors/0/componentType: found 5124, expected a component type: 5120, 5121, "
+            "5122, 5123, 5125 or 5126"},
+        BadGltf{"SparseBeyondView", "/accessors/0/sparse",
+            R"({"count": 2, "indices": {"bufferView": 1, "componentType": 5125},
+                "values": {"bufferView": 0}})",
+            "/accessors/0/sparse/indices/count: found 2, expected at most 1, what the buffer "
+            "view holds"}),
+    kName);
+
+INSTANTIATE_TEST_SUITE_P(Meshes, BadGltfTest,
+    testing::Values(
+        BadGltf{"NoMeshes", "/meshes", "[]", "/meshes: found no mesh, expected at least one mesh"},
+        BadGltf{"NoPrimitives", "/meshes/0/primitives", "[]",
+            "/meshes/0/primitives: found an empty array, expected an array of at least one "
+            "primitive"},
+        BadGltf{"NoPositions", "/meshes/0/primitives/0/attributes", "{}",
+            "/meshes/0/primitives/0/attributes: found no key \"POSITION\", expected an accessor "
+            "of positions"},
+        BadGltf{"PositionsOfScalars", "/meshes/0/primitives/0/attributes/POSITION", "1",
+            "/meshes/0/primitives/0/attributes/POSITION: found SCALAR of component type 5123, "
+            "expected VEC3 of floats, or of bytes or shorts (KHR_mesh_quantization)"},
+        BadGltf{"IndicesOfVectors", "/meshes/0/primitives/0/indices", "0",
+            "/meshes/0/primitives/0/indices: found VEC3 of component type 5126, expected SCALAR "
+            "of unsigned bytes, shorts or ints"},
+        BadGltf{"NoSuchAccessor", "/meshes/0/primitives/0/indices", "2",
+            "/meshes/0/primitives/0/indices: found index 2, expected less than 2, the number of "
+            "accessors"},
+        BadGltf{"NoSuchMaterial", "/meshes/0/primitives/0/material", "0",
+            "/meshes/0/primitives/0/material: found index 0, expected less than 0, the number of "
+            "materials"},
+        BadGltf{"FewerNormals", "/accessors/2",
+            R"({"bufferView": 0, "count": 2, "componentType": 5126, "type": "VEC3"})", "loaded"},
+        BadGltf{"IndexBeyondPositions", "/accessors/0/count", "2",
+            "/meshes/0/primitives/0/indices: found index 2 as element 2, expected less than 2, "
+            "the number of positions"},
+        BadGltf{"TwoCorners", "/accessors/1/count", "2",
+            "/meshes/0/primitives/0/indices: found 2 corners, expected at least one triangle"},
+        BadGltf{"AllZeros", "/accessors/0",
+            R"({"count": 3, "componentType": 5126, "type": "VEC3"})",
+            "/meshes/0/primitives/0: found no triangle that is left; 1 triangle of zero area "
+            "left out, expected at least one triangle that has an area"}),
+    kName);
+
+INSTANTIATE_TEST_SUITE_P(Nodes, BadGltfTest,
+    testing::Values(BadGltf{"NoSuchMesh", "/nodes/0/mesh", "3",
+                        "/nodes/0/mesh: found index 3, expected less than 1, the number of meshes"},
+        BadGltf{"NoSuchChild", "/nodes/0/children", "[1]",
+            "/nodes/0/children/0: found index 1, expected less than 1, the number of nodes"},
+        BadGltf{"ItsOwnChild", "/nodes/0/children", "[0]",
+            "/nodes/0/children/0: found node 0 a second time, expected a tree: no cycles, one "
+            "parent a node"},
+        BadGltf{"RootTwice", "/scenes/0/nodes", "[0, 0]",
+            "/scenes/0/nodes/1: found node 0 a second time, expected a tree: no cycles, one "
+            "parent a node"},
+        BadGltf{"NegativeMesh", "/nodes/0/mesh", "-1",
+            "/nodes/0/mesh: found -1, expected an index: an integer from 0"},
+        BadGltf{"NoSuchCamera", "/nodes/0/camera", "0",
+            "/nodes/0/camera: found index 0, expected less than 0, the number of cameras"},
+        BadGltf{"ShortMatrix", "/nodes/0/matrix", "[1, 0, 0]",
+            "/nodes/0/matrix: found [1,0,0], expected 16 numbers"},
+        BadGltf{"Projective", "/nodes/0/matrix", "[1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]",
+            "/nodes/0/matrix: found a projective transform, expected a last row of 0, 0, 0, 1"},
+        BadGltf{"NoRotation", "/nodes/0/rotation", "[0, 0, 0, 0]",
+            "/nodes/0/rotation: found a quaternion of no length, expected a unit quaternion"},
+        BadGltf{"TooFar", "/nodes/0/translation", "[1e300, 0, 0]",
+            "/nodes/0: found a transform beyond 1e18, expected numbers of at most 1e18 in "
+            "magnitude"}),
+    kName);
+
+class GltfContainerTest : public testing::Test {
+protected:
+    std::string refusal_of(const std::string& name, std::string_view bytes)
+    {
+        const auto file = folder_.write(name, bytes);
+        return refusal(file.string(), [&] { load_scene(file); });
+    }
+
+    std::string good_glb()
+    {
+        triangle_gltf().write_glb(folder_.path() / "good.glb");
+        std::ifstream stream(folder_.path() / "good.glb", std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    TempFolder folder_;
+};
+
+TEST_F(GltfContainerTest, TruncatedAnywhereIsRefused)
+{
+    const std::string good = good_glb();
+    ASSERT_EQ(refusal_of("a.glb", good), "loaded");
+    for (std::size_t length = 0; length < good.size(); ++length)
+        ASSERT_NE(refusal_of("a.glb", good.substr(0, length)), "loaded") << length;
+}
+
+TEST_F(GltfContainerTest, AnyFlippedByteLoadsOrIsRefused)
+{
+    const std::string good = good_glb();
+    int refused = 0;
+    for (std::size_t i = 0; i < good.size(); ++i) {
+        std::string bad = good;
+        bad[i] = static_cast<char>(bad[i] ^ 0x15);
+        refused += refusal_of("a.glb", bad) == "loaded" ? 0 : 1;
+    }
+    EXPECT_GT(refused, 100);  // most of the JSON and the headers matter
+}
+
+TEST_F(GltfContainerTest, Headers)
+{
+    std::string bytes = good_glb();
+    bytes[4] = 1;
+    EXPECT_EQ(refusal_of("a.glb", bytes), "found GLB version 1, expected version 2");
+    bytes = good_glb();
+    bytes[16] = 'X';
+    EXPECT_EQ(refusal_of("a.glb", bytes),
+        "found a first chunk that is not JSON, expected the JSON chunk first");
+    bytes = good_glb();
+    bytes[14] = 1;  // a JSON chunk of 64 KiB more
+    EXPECT_EQ(refusal_of("a.glb", bytes),
+        "found a chunk at byte 12 that runs past the end, expected chunks within the file");
+    EXPECT_EQ(refusal_of("a.glb", "glTF"), "found 4 bytes, expected a GLB header and a chunk");
+    EXPECT_THAT(refusal_of("a.gltf", "{\"asset\": }"),
+        testing::StartsWith("/asset at line 1, column 11: found broken JSON"));
+}
+
+TEST_F(GltfContainerTest, ABufferNeedsBytes)
+{
+    GltfBuilder gltf = triangle_gltf();
+    EXPECT_EQ(refusal_of("a.gltf", gltf.document.dump()),
+        "/buffers/0: found no key \"uri\", expected a uri, or a GLB with a binary chunk");
+    gltf.document["buffers"][0]["uri"] = "data:application/octet-stream;base64,AAAA";
+    EXPECT_THAT(refusal_of("a.gltf", gltf.document.dump()),
+        testing::StartsWith("found a glTF file that cannot be read: \"Failed to decode 'uri'"));
+}
+
+}  // namespace
+}  // namespace farlight
