@@ -1,7 +1,7 @@
 # Writes OUTPUT, a C++ file that holds the files of FOLDER as viewer_files(). Run with cmake -P.
 set(types html "text/html; charset=utf-8" js "text/javascript; charset=utf-8" mjs "text/javascript; charset=utf-8"
           css "text/css; charset=utf-8" svg "image/svg+xml" png "image/png" ico "image/x-icon"
-          json "application/json" txt "text/plain; charset=utf-8")
+          txt "text/plain; charset=utf-8")
 
 file(GLOB_RECURSE files RELATIVE ${FOLDER} ${FOLDER}/*)
 list(SORT files)
