@@ -1,18 +1,13 @@
 // Image: pixels on the CPU, as they come back from the GPU. Row 0 is the top of the picture.
 #pragma once
 
+#include "server/gl/extent.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace farlight {
-
-struct Extent {
-    int width = 0;
-    int height = 0;
-
-    bool operator==(const Extent&) const = default;
-};
 
 enum class PixelFormat : std::uint8_t {
     kRgb8,  ///< Tone-mapped sRGB, 3 bytes a pixel, rows packed.

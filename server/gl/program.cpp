@@ -1,0 +1,133 @@
+#include "server/gl/program.h"
+
+#include "server/gl/gl_error.h"
+
+#include <memory>
+
+namespace farlight {
+namespace {
+
+std::string shader_log(GLuint shader)
+{
+    GLint length = 0;
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetShaderInfoLog(shader, length, nullptr, log.data());
+    return log.c_str();
+}
+
+std::string program_log(GLuint program)
+{
+    GLint length = 0;
+    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+    glGetProgramInfoLog(program, length, nullptr, log.data());
+    return log.c_str();
+}
+
+std::string resource_name(GLuint program, GLenum interface, GLuint index)
+{
+    char name[256];
+    GLsizei length = 0;
+    glGetProgramResourceName(program, interface, index, sizeof name, &length, name);
+    return {name, static_cast<std::size_t>(length)};
+}
+
+GLuint compiled(const ShaderSource& source)
+{
+    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+    const char* text = source.text.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok == GL_TRUE)
+        return shader;
+    const std::string log = shader_log(shader);
+    glDeleteShader(shader);
+    throw ShaderError("cannot compile " + explain_log(source, log));
+}
+
+}  // namespace
+
+VariableKind kind_of(GLenum uniform_type)
+{
+    switch (uniform_type) {
+    case GL_SAMPLER_2D:
+    case GL_INT_SAMPLER_2D:
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+    case GL_SAMPLER_BUFFER:
+    case GL_INT_SAMPLER_BUFFER:
+    case GL_UNSIGNED_INT_SAMPLER_BUFFER: return VariableKind::kSampler;
+    case GL_IMAGE_2D:
+    case GL_INT_IMAGE_2D:
+    case GL_UNSIGNED_INT_IMAGE_2D: return VariableKind::kImage;
+    default: return VariableKind::kConstant;
+    }
+}
+
+Program::Program(const ShaderSource& source) : name_(source.name)
+{
+    const GLuint shader = compiled(source);
+    id_ = glCreateProgram();
+    glAttachShader(id_, shader);
+    glLinkProgram(id_);
+    glDeleteShader(shader);
+    GLint ok = GL_FALSE;
+    glGetProgramiv(id_, GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE) {
+        const std::string log = program_log(id_);
+        glDeleteProgram(id_);
+        throw ShaderError("cannot link " + explain_log(source, log));
+    }
+    glObjectLabel(GL_PROGRAM, id_, -1, name_.c_str());
+    glGetProgramiv(id_, GL_COMPUTE_WORK_GROUP_SIZE, work_group_size_);
+    reflect_uniforms();
+    reflect_blocks();
+}
+
+Program::~Program()
+{
+    glDeleteProgram(id_);
+}
+
+void Program::reflect_uniforms()
+{
+    GLint count = 0;
+    glGetProgramInterfaceiv(id_, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
+    GLint next_texture_unit = 0;
+    GLint next_image_unit = 0;
+    for (GLint i = 0; i < count; ++i) {
+        const GLenum wanted[] = {GL_TYPE, GL_LOCATION, GL_BLOCK_INDEX};
+        GLint found[3];
+        glGetProgramResourceiv(
+            id_, GL_UNIFORM, static_cast<GLuint>(i), 3, wanted, 3, nullptr, found);
+        if (found[2] != -1)
+            continue;  // a member of a uniform block
+        UniformVariable variable{static_cast<GLenum>(found[0]), found[1], -1};
+        if (kind_of(variable.type) == VariableKind::kSampler)
+            variable.unit = next_texture_unit++;
+        if (kind_of(variable.type) == VariableKind::kImage)
+            variable.unit = next_image_unit++;
+        if (variable.unit >= 0)
+            glProgramUniform1i(id_, variable.location, variable.unit);
+        uniforms_[resource_name(id_, GL_UNIFORM, static_cast<GLuint>(i))] = variable;
+    }
+}
+
+void Program::reflect_blocks()
+{
+    GLint count = 0;
+    glGetProgramInterfaceiv(id_, GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+        glUniformBlockBinding(id_, i, i);
+        uniform_blocks_[resource_name(id_, GL_UNIFORM_BLOCK, i)] = i;
+    }
+    glGetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+        glShaderStorageBlockBinding(id_, i, i);
+        storage_blocks_[resource_name(id_, GL_SHADER_STORAGE_BLOCK, i)] = i;
+    }
+}
+
+}  // namespace farlight

@@ -1,0 +1,16 @@
+#include "server/gl/program_cache.h"
+
+namespace farlight {
+
+const Program& ProgramCache::get(const std::string& shader, const Defines& defines)
+{
+    std::string key = shader;
+    for (const auto& [name, value] : defines)
+        key += '\n' + name + ' ' + value;
+    std::unique_ptr<Program>& program = programs_[key];
+    if (program == nullptr)
+        program = std::make_unique<Program>(load_shader_source(shader, defines));
+    return *program;
+}
+
+}  // namespace farlight

@@ -1,0 +1,31 @@
+// Texture: a 2D image without mip levels, the only kind the frame needs.
+#pragma once
+
+#include "server/gl/extent.h"
+
+#include <epoxy/gl.h>
+#include <string>
+
+namespace farlight {
+
+class Texture {
+public:
+    /// Zero-filled. Throws GlError if the device has no room.
+    Texture(const std::string& label, GLenum format, Extent extent);
+    ~Texture();
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+
+    GLuint id() const { return id_; }
+    GLenum format() const { return format_; }
+    Extent extent() const { return extent_; }
+    /// Debuggers and error logs show textures by this name.
+    void relabel(const std::string& label);
+
+private:
+    GLuint id_ = 0;
+    GLenum format_;
+    Extent extent_;
+};
+
+}  // namespace farlight

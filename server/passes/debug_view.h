@@ -1,0 +1,125 @@
+// Debug view stage: any buffer of the frame, as numbers (for `raw` frames) and as colours.
+#pragma once
+
+#include "server/passes/path_trace.h"
+
+#include <optional>
+
+namespace farlight {
+
+/// Everything a view may show; what a frame does not have stays at index -1.
+struct FrameBuffers {
+    GBuffer gbuffer;
+    Signals noisy;
+    TextureHandle raw;  ///< Undenoised picture.
+    Signals blended;  ///< SVGF: alpha is the variance estimate.
+    TextureHandle history_length;
+};
+
+struct ViewScales {
+    float exposure;
+    float scene_radius;
+    float history_max;
+};
+
+/// How one view is read, shown, and what counts as large in it.
+struct ViewRecipe {
+    TextureHandle source;
+    const char* read_as;
+    const char* show_as;
+    float scale;
+};
+
+/// The recipe of `view`, or nothing where this frame does not have that buffer (no denoiser: no
+/// history).
+inline std::optional<ViewRecipe> recipe_of(
+    DebugView view, const FrameBuffers& b, const ViewScales& scales)
+{
+    const auto recipe = [&]() -> ViewRecipe {
+        switch (view) {
+        case DebugView::kRawRadiance:
+            return {b.raw, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
+        case DebugView::kDirect:
+            return {b.noisy.direct, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
+        case DebugView::kIndirect:
+            return {b.noisy.indirect, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
+        case DebugView::kAlbedo: return {b.gbuffer.albedo, "VIEW_COLOR", "SHOW_RADIANCE", 1};
+        case DebugView::kEmission:
+            return {b.gbuffer.emission, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
+        case DebugView::kDepth:
+            return {b.gbuffer.surface, "VIEW_DEPTH", "SHOW_DISTANCE", 2 * scales.scene_radius};
+        case DebugView::kDepthGradient:
+            return {b.gbuffer.surface, "VIEW_GRADIENT", "SHOW_MOTION", 0.01F * scales.scene_radius};
+        case DebugView::kPosition:
+            return {b.gbuffer.position, "VIEW_COLOR", "SHOW_FRACTION", 0.25F * scales.scene_radius};
+        case DebugView::kGeometricNormal:
+            return {b.gbuffer.identity, "VIEW_GEOMETRIC", "SHOW_NORMAL", 1};
+        case DebugView::kShadingNormal:
+            return {b.gbuffer.surface, "VIEW_SHADING", "SHOW_NORMAL", 1};
+        case DebugView::kObjectId: return {b.gbuffer.identity, "VIEW_OBJECT", "SHOW_ID", 1};
+        case DebugView::kMaterialId: return {b.gbuffer.identity, "VIEW_MATERIAL", "SHOW_ID", 1};
+        case DebugView::kMotion: return {b.gbuffer.motion, "VIEW_COLOR", "SHOW_MOTION", 16};
+        case DebugView::kVariance:
+            return {b.blended.indirect, "VIEW_ALPHA", "SHOW_RADIANCE", scales.exposure};
+        case DebugView::kHistoryLength:
+            return {b.history_length, "VIEW_RED", "SHOW_COUNT", scales.history_max};
+        case DebugView::kFinal:
+        case DebugView::kSheet: break;
+        }
+        return {{}, nullptr, nullptr, 0};
+    }();
+    return recipe.source.index < 0 ? std::nullopt : std::optional(recipe);
+}
+
+/// The view's numbers (rgba32f).
+inline TextureHandle add_debug_value(
+    FrameGraph& graph, const std::string& name, const ViewRecipe& recipe)
+{
+    const TextureHandle value = graph.create(name + ".value", GL_RGBA32F);
+    graph.add_pass(name + " value", "debug_view/value.comp")
+        .define({{recipe.read_as, ""}})
+        .read("in_texture", recipe.source)
+        .write("out_value", value);
+    return value;
+}
+
+/// The view's colours (rgba8).
+inline TextureHandle add_debug_display(
+    FrameGraph& graph, const std::string& name, const ViewRecipe& recipe, TextureHandle value)
+{
+    const TextureHandle display = graph.create(name + ".display", GL_RGBA8);
+    Pass& pass = graph.add_pass(name + " display", "debug_view/display.comp")
+                     .define({{recipe.show_as, ""}})
+                     .read("in_value", value)
+                     .write("out_display", display);
+    const std::string_view show_as = recipe.show_as;
+    if (show_as != "SHOW_NORMAL" && show_as != "SHOW_ID")
+        pass.constant("value_scale", recipe.scale);
+    return display;
+}
+
+/// Radiance, normal, variance, history length; where a quadrant's buffer is missing the radiance
+/// stands in.
+inline TextureHandle add_debug_sheet(
+    FrameGraph& graph, const FrameBuffers& buffers, const ViewScales& scales)
+{
+    const ViewRecipe radiance = *recipe_of(DebugView::kRawRadiance, buffers, scales);
+    const auto quadrant = [&](DebugView view, const char* name) {
+        const ViewRecipe recipe = recipe_of(view, buffers, scales).value_or(radiance);
+        return add_debug_display(graph, name, recipe, add_debug_value(graph, name, recipe));
+    };
+    const TextureHandle top_left = quadrant(DebugView::kRawRadiance, "sheet radiance");
+    const TextureHandle top_right = quadrant(DebugView::kShadingNormal, "sheet normal");
+    const TextureHandle bottom_left = quadrant(DebugView::kVariance, "sheet variance");
+    const TextureHandle bottom_right = quadrant(DebugView::kHistoryLength, "sheet history");
+    const TextureHandle display = graph.create("sheet", GL_RGBA8);
+    graph.add_pass("sheet", "debug_view/sheet.comp")
+        .read("in_top_left", top_left)
+        .read("in_top_right", top_right)
+        .read("in_bottom_left", bottom_left)
+        .read("in_bottom_right", bottom_right)
+        .write("out_display", display);
+    return display;
+}
+
+}  // namespace farlight

@@ -1,0 +1,21 @@
+// Tonemap stage: scene-linear radiance to sRGB.
+#pragma once
+
+#include "server/render/frame_graph.h"
+#include "server/render/settings.h"
+
+namespace farlight {
+
+inline TextureHandle add_tonemap(
+    FrameGraph& graph, TextureHandle radiance, const RenderSettings& settings)
+{
+    const TextureHandle display = graph.create("display", GL_RGBA8);
+    graph.add_pass("tonemap", "tonemap/tonemap.comp")
+        .read("in_radiance", radiance)
+        .write("out_display", display)
+        .constant("exposure", settings.exposure)
+        .constant("tonemap_curve", settings.tonemap == Tonemap::kAces ? 0 : 1);
+    return display;
+}
+
+}  // namespace farlight

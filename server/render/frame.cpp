@@ -1,0 +1,61 @@
+#include "server/render/frame.h"
+
+#include "server/passes/accumulate.h"
+#include "server/passes/composite.h"
+#include "server/passes/debug_view.h"
+#include "server/passes/gbuffer.h"
+#include "server/passes/path_trace.h"
+#include "server/passes/svgf.h"
+#include "server/passes/tonemap.h"
+
+namespace farlight {
+namespace {
+
+/// The picture of a debug view, or nothing when the view is the finished picture.
+std::optional<TextureHandle> add_debug_view(
+    FrameGraph& graph, const FrameBuffers& buffers, const FramePlan& plan)
+{
+    const ViewScales scales{
+        plan.settings.exposure, plan.scene_radius, static_cast<float>(plan.settings.history_max)};
+    if (plan.settings.view == DebugView::kSheet && !plan.linear_output)
+        return add_debug_sheet(graph, buffers, scales);
+    const std::optional<ViewRecipe> recipe = recipe_of(plan.settings.view, buffers, scales);
+    if (!recipe)
+        return std::nullopt;
+    const TextureHandle value = add_debug_value(graph, "debug_view", *recipe);
+    return plan.linear_output ? value : add_debug_display(graph, "debug_view", *recipe, value);
+}
+
+}  // namespace
+
+TextureHandle build_frame(FrameGraph& graph, const SceneInputs& scene, const FramePlan& plan)
+{
+    const RenderSettings& settings = plan.settings;
+    FrameBuffers buffers;
+    buffers.gbuffer = add_gbuffer(graph, scene, settings.denoiser == Denoiser::kSvgf);
+    buffers.noisy = add_path_trace(graph, scene, buffers.gbuffer, settings);
+    buffers.raw = add_composite(graph, "composite raw", buffers.gbuffer, buffers.noisy);
+
+    TextureHandle radiance = buffers.raw;
+    if (settings.denoiser == Denoiser::kSvgf) {
+        const SvgfOutput svgf = add_svgf(graph, buffers.gbuffer, buffers.noisy, settings);
+        buffers.blended = svgf.blended;
+        buffers.history_length = svgf.history_length;
+        radiance = add_composite(graph, "composite", buffers.gbuffer, svgf.filtered);
+    }
+    if (settings.denoiser == Denoiser::kAccumulate || plan.refine) {
+        const TextureHandle mean = add_accumulate(graph, buffers.raw, plan.mean_frames);
+        const auto samples = static_cast<float>(plan.mean_frames * settings.samples_per_pixel);
+        const float mean_weight =
+            samples / (samples + static_cast<float>(settings.refine_crossover));
+        radiance = settings.denoiser == Denoiser::kSvgf
+            ? add_refine(graph, radiance, mean, mean_weight)
+            : mean;
+    }
+
+    if (const auto debug = add_debug_view(graph, buffers, plan))
+        return *debug;
+    return plan.linear_output ? radiance : add_tonemap(graph, radiance, settings);
+}
+
+}  // namespace farlight

@@ -1,0 +1,24 @@
+// One frame as a list of passes. Read frame.cpp first: it is the renderer at a glance.
+#pragma once
+
+#include "server/render/frame_graph.h"
+#include "server/render/settings.h"
+
+#include <optional>
+
+namespace farlight {
+
+/// What build_frame() needs to know beyond the settings.
+struct FramePlan {
+    RenderSettings settings;
+    int mean_frames = 1;  ///< Frames in the running mean with this one.
+    bool refine = false;
+    float scene_radius = 1;  ///< [m], scales debug views.
+    bool linear_output =
+        false;  ///< The caller wants numbers (rgba32f), not display values (rgba8).
+};
+
+/// Declares the whole frame; returns the texture to read back, rgba8 or rgba32f.
+TextureHandle build_frame(FrameGraph& graph, const SceneInputs& scene, const FramePlan& plan);
+
+}  // namespace farlight

@@ -1,0 +1,363 @@
+#include "server/render/frame_graph.h"
+
+#include "server/gl/gl_error.h"
+
+#include <algorithm>
+#include <cassert>
+#include <set>
+#include <spdlog/spdlog.h>
+
+namespace farlight {
+namespace {
+
+/// The GLSL type a constant may be assigned to; booleans are ints in our shaders.
+GLenum glsl_type(const Constant& value)
+{
+    static constexpr GLenum kTypes[] = {
+        GL_INT, GL_UNSIGNED_INT, GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3};
+    return kTypes[value.index()];
+}
+
+std::size_t bytes_per_texel(GLenum format)
+{
+    switch (format) {
+    case GL_RGBA32F:
+    case GL_RGBA32UI: return 16;
+    case GL_RG32F:
+    case GL_RGBA16F: return 8;
+    default: return 4;
+    }
+}
+
+}  // namespace
+
+Pass& Pass::define(const Defines& more)
+{
+    defines.insert(defines.end(), more.begin(), more.end());
+    return *this;
+}
+
+Pass& Pass::read(const char* variable, TextureHandle texture)
+{
+    assert(texture.index >= 0);
+    uses.push_back({variable, texture, false});
+    return *this;
+}
+
+Pass& Pass::write(const char* variable, TextureHandle texture)
+{
+    assert(texture.index >= 0);
+    uses.push_back({variable, texture, true});
+    return *this;
+}
+
+Pass& Pass::constant(const char* variable, Constant value)
+{
+    constants.emplace_back(variable, value);
+    return *this;
+}
+
+Pass& Pass::scene(const SceneInputs& inputs)
+{
+    scene_inputs = &inputs;
+    return define(inputs.defines);
+}
+
+Pass& Pass::dispatch(Extent over)
+{
+    domain = over;
+    return *this;
+}
+
+FrameGraph::FrameGraph(ProgramCache& programs, bool software)
+    : programs_(programs)
+    , strict_(software)
+    , timer_(software)
+{
+}
+
+void FrameGraph::begin_frame(Extent extent, std::vector<BlockInput> blocks)
+{
+    if (extent != extent_) {
+        histories_.clear();
+        pool_.clear();
+        extent_ = extent;
+    }
+    for (Resource& resource : resources_)
+        if (resource.kept && resource.transient && resource.texture != nullptr)
+            pool_.push_back(std::move(resource.texture));
+    for (auto& [name, pair] : histories_) {
+        pair.written_last_frame = pair.resource_current >= 0
+            && resources_[static_cast<std::size_t>(pair.resource_current)].written;
+        if (pair.written_last_frame)
+            pair.current = 1 - pair.current;
+        pair.resource_previous = pair.resource_current = -1;
+    }
+    resources_.clear();
+    passes_.clear();
+    blocks_ = std::move(blocks);
+    timer_.begin_frame();
+}
+
+TextureHandle FrameGraph::create(const std::string& name, GLenum format)
+{
+    resources_.push_back({name, format, nullptr});
+    return {static_cast<int>(resources_.size()) - 1};
+}
+
+History FrameGraph::history(const std::string& name, GLenum format)
+{
+    HistoryPair& pair = histories_[name];
+    if (pair.textures[0] == nullptr || pair.textures[0]->format() != format) {
+        for (auto& texture : pair.textures)
+            texture = std::make_shared<Texture>(name, format, extent_);
+        pair.written_last_frame = false;
+    }
+    if (pair.resource_current < 0) {
+        for (int age : {1, 0}) {
+            Resource resource{
+                name, format, pair.textures[age == 0 ? pair.current : 1 - pair.current]};
+            resource.transient = false;
+            resources_.push_back(resource);
+        }
+        pair.resource_previous = static_cast<int>(resources_.size()) - 2;
+        pair.resource_current = static_cast<int>(resources_.size()) - 1;
+    }
+    return {{pair.resource_previous}, {pair.resource_current}, pair.written_last_frame};
+}
+
+void FrameGraph::forget_histories()
+{
+    for (auto& [name, pair] : histories_)
+        pair.resource_current = -1;
+}
+
+Pass& FrameGraph::add_pass(const std::string& name, const std::string& shader)
+{
+    passes_.push_back({name, shader});
+    passes_.back().domain = extent_;
+    return passes_.back();
+}
+
+void FrameGraph::keep(TextureHandle texture)
+{
+    resources_[static_cast<std::size_t>(texture.index)].kept = true;
+}
+
+void FrameGraph::find_lifetimes()
+{
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+        for (const Pass::Use& use : passes_[i].uses)
+            resources_[static_cast<std::size_t>(use.texture.index)].last_pass = static_cast<int>(i);
+}
+
+void FrameGraph::execute()
+{
+    find_lifetimes();
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+        run(passes_[i], static_cast<int>(i));
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT
+        | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT
+        | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    dirty_.clear();
+    check_gl("frame");
+}
+
+void FrameGraph::run(const Pass& pass, int pass_index)
+{
+    const Program& program = programs_.get(pass.shader, pass.defines);
+    check(pass, program);
+    for (const Pass::Use& use : pass.uses) {
+        Resource& resource = resources_[static_cast<std::size_t>(use.texture.index)];
+        if (use.write)
+            acquire(resource);
+        else if (resource.texture == nullptr)
+            throw ShaderError("pass '" + pass.name + "': '" + use.name + "' reads texture '"
+                + resource.name + "' before any pass has written it");
+    }
+    place_barrier(pass);
+
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, pass.name.c_str());
+    timer_.begin(pass.name);
+    glUseProgram(program.id());
+    bind_textures(pass, program);
+    set_constants(pass, program);
+    const GLint* group = program.work_group_size();
+    const auto groups = [](int pixels, GLint size) {
+        return static_cast<GLuint>((pixels + size - 1) / size);
+    };
+    glDispatchCompute(groups(pass.domain.width, group[0]), groups(pass.domain.height, group[1]), 1);
+    timer_.end();
+    glPopDebugGroup();
+
+    for (const Pass::Use& use : pass.uses) {
+        Resource& resource = resources_[static_cast<std::size_t>(use.texture.index)];
+        if (use.write) {
+            resource.written = true;
+            dirty_.push_back(resource.texture->id());
+        }
+        if (resource.transient && !resource.kept && resource.last_pass == pass_index
+            && resource.texture != nullptr)
+            pool_.push_back(std::move(resource.texture));
+    }
+}
+
+void FrameGraph::acquire(Resource& resource)
+{
+    if (resource.texture != nullptr)
+        return;
+    const auto found = std::find_if(pool_.begin(), pool_.end(),
+        [&](const auto& texture) { return texture->format() == resource.format; });
+    if (found != pool_.end()) {
+        resource.texture = std::move(*found);
+        pool_.erase(found);
+        resource.texture->relabel(resource.name);
+    } else {
+        resource.texture = std::make_shared<Texture>(resource.name, resource.format, extent_);
+    }
+}
+
+void FrameGraph::place_barrier(const Pass& pass)
+{
+    const bool hazard = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const Pass::Use& use) {
+        const auto& texture = resources_[static_cast<std::size_t>(use.texture.index)].texture;
+        return std::find(dirty_.begin(), dirty_.end(), texture->id()) != dirty_.end();
+    });
+    if (!hazard)
+        return;
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    dirty_.clear();
+}
+
+void FrameGraph::complain(
+    const Pass& pass, const std::string& variable, const std::string& problem) const
+{
+    throw ShaderError(
+        "pass '" + pass.name + "': '" + variable + "' " + problem + " (" + pass.shader + ")");
+}
+
+/// Used by the shader but declared by nobody.
+void FrameGraph::check(const Pass& pass, const Program& program) const
+{
+    for (const auto& [name, variable] : program.uniforms()) {
+        const bool texture = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const auto& use) {
+            return use.name == name
+                && use.write == (kind_of(variable.type) == VariableKind::kImage);
+        });
+        const bool constant =
+            std::any_of(pass.constants.begin(), pass.constants.end(), [&](const auto& row) {
+                return row.first == name && glsl_type(row.second) == variable.type;
+            });
+        const bool buffer =
+            pass.scene_inputs != nullptr && pass.scene_inputs->buffers.contains(name);
+        if (!texture && !constant && !buffer)
+            complain(pass, name, "is used by the shader but not declared with this kind and type");
+    }
+    for (const auto* block_map : {&program.uniform_blocks(), &program.storage_blocks()})
+        for (const auto& [name, binding] : *block_map)
+            if (std::none_of(blocks_.begin(), blocks_.end(),
+                    [&](const auto& block) { return block.name == name; }))
+                complain(pass, name, "is a block the shader uses but the frame does not offer");
+    check_declared(pass, program);
+}
+
+/// Declared by the pass but not active in the shader: a setting that reaches nothing.
+void FrameGraph::check_declared(const Pass& pass, const Program& program) const
+{
+    static std::set<std::string> warned;
+    const auto check_name = [&](const std::string& name) {
+        if (program.uniforms().contains(name))
+            return;
+        if (strict_)
+            complain(pass, name, "is declared but the shader does not use it");
+        if (warned.insert(pass.name + "/" + name).second)
+            spdlog::warn(
+                "pass '{}': '{}' is declared but not active in {}", pass.name, name, pass.shader);
+    };
+    for (const Pass::Use& use : pass.uses)
+        check_name(use.name);
+    for (const auto& row : pass.constants)
+        check_name(row.first);
+}
+
+void FrameGraph::bind_textures(const Pass& pass, const Program& program)
+{
+    for (const Pass::Use& use : pass.uses) {
+        const auto variable = program.uniforms().find(use.name);
+        if (variable == program.uniforms().end())
+            continue;
+        const Texture& texture = *resources_[static_cast<std::size_t>(use.texture.index)].texture;
+        const auto unit = static_cast<GLuint>(variable->second.unit);
+        if (use.write)
+            glBindImageTexture(unit, texture.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, texture.format());
+        else
+            glBindTextureUnit(unit, texture.id());
+    }
+    if (pass.scene_inputs != nullptr)
+        for (const auto& [name, texture] : pass.scene_inputs->buffers)
+            if (const auto found = program.uniforms().find(name); found != program.uniforms().end())
+                glBindTextureUnit(static_cast<GLuint>(found->second.unit), texture);
+    for (const BlockInput& block : blocks_) {
+        if (const auto found = program.uniform_blocks().find(block.name);
+            found != program.uniform_blocks().end())
+            glBindBufferBase(GL_UNIFORM_BUFFER, found->second, block.buffer);
+        if (const auto found = program.storage_blocks().find(block.name);
+            found != program.storage_blocks().end())
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, found->second, block.buffer);
+    }
+}
+
+void FrameGraph::set_constants(const Pass& pass, const Program& program) const
+{
+    for (const auto& [name, value] : pass.constants) {
+        const auto variable = program.uniforms().find(name);
+        if (variable == program.uniforms().end())
+            continue;
+        const GLint at = variable->second.location;
+        const GLuint id = program.id();
+        if (const auto* v = std::get_if<int>(&value))
+            glProgramUniform1i(id, at, *v);
+        else if (const auto* u = std::get_if<unsigned>(&value))
+            glProgramUniform1ui(id, at, *u);
+        else if (const auto* f = std::get_if<float>(&value))
+            glProgramUniform1f(id, at, *f);
+        else if (const auto* v2 = std::get_if<glm::vec2>(&value))
+            glProgramUniform2f(id, at, v2->x, v2->y);
+        else if (const auto* v3 = std::get_if<glm::vec3>(&value))
+            glProgramUniform3f(id, at, v3->x, v3->y, v3->z);
+    }
+}
+
+const Texture& FrameGraph::texture(TextureHandle handle) const
+{
+    const Resource& resource = resources_[static_cast<std::size_t>(handle.index)];
+    assert(resource.texture != nullptr && "not kept");
+    return *resource.texture;
+}
+
+std::size_t FrameGraph::texture_bytes() const
+{
+    std::size_t bytes = 0;
+    const auto count = [&](const std::shared_ptr<Texture>& texture) {
+        if (texture != nullptr)
+            bytes += bytes_per_texel(texture->format()) * static_cast<std::size_t>(extent_.width)
+                * static_cast<std::size_t>(extent_.height);
+    };
+    std::for_each(pool_.begin(), pool_.end(), count);
+    for (const Resource& resource : resources_)
+        if (resource.transient)
+            count(resource.texture);
+    for (const auto& [name, pair] : histories_)
+        std::for_each(std::begin(pair.textures), std::end(pair.textures), count);
+    return bytes;
+}
+
+std::vector<std::string> FrameGraph::pass_names() const
+{
+    std::vector<std::string> names;
+    for (const Pass& pass : passes_)
+        names.push_back(pass.name);
+    return names;
+}
+
+}  // namespace farlight

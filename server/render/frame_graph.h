@@ -1,0 +1,145 @@
+// FrameGraph: the passes of one frame, declared by the names their shaders use.
+//
+// A frame is declared anew each time (cheap: programs and textures are kept), then execute() checks
+// every declaration against its program, puts barriers between writers and readers, dispatches and
+// times each pass.
+//   transient texture   lives within the frame; its memory is reused after its last reader
+//   history texture     `current` of this frame is `previous` of the next; owned by the graph
+#pragma once
+
+#include "server/gl/extent.h"
+#include "server/gl/gpu_timer.h"
+#include "server/gl/program_cache.h"
+#include "server/gl/texture.h"
+
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace farlight {
+
+/// A texture of this frame, by its index in the graph.
+struct TextureHandle {
+    int index = -1;
+};
+
+struct History {
+    TextureHandle previous;  ///< Last frame's `current`; anything when not `valid`.
+    TextureHandle current;  ///< To be written this frame.
+    bool valid = false;  ///< Last frame wrote it, at this size.
+};
+
+/// What the scene offers to passes that look into it: buffer textures, bound by name where a shader
+/// asks for them, and the macros such shaders are compiled with.
+struct SceneInputs {
+    std::map<std::string, GLuint, std::less<>> buffers;
+    Defines defines;
+};
+
+/// A uniform or storage block offered to every pass of the frame, bound where a shader asks for it.
+struct BlockInput {
+    std::string name;
+    GLuint buffer = 0;
+};
+
+using Constant = std::variant<int, unsigned, float, glm::vec2, glm::vec3>;
+
+/// One pass while it is being declared. Names are the shader's own.
+struct Pass {
+    struct Use {
+        std::string name;
+        TextureHandle texture;
+        bool write = false;
+    };
+
+    std::string name;
+    std::string shader;
+    Defines defines;
+    std::vector<Use> uses;
+    std::vector<std::pair<std::string, Constant>> constants;
+    const SceneInputs* scene_inputs = nullptr;
+    Extent domain;
+
+    Pass& define(const Defines& more);
+    Pass& read(const char* variable, TextureHandle texture);
+    Pass& write(const char* variable, TextureHandle texture);
+    Pass& constant(const char* variable, Constant value);
+    Pass& scene(const SceneInputs& inputs);  ///< `inputs` must outlive the frame.
+    Pass& dispatch(Extent over);  ///< One invocation a pixel, rounded up to whole work groups.
+};
+
+class FrameGraph {
+public:
+    /// `strict`: a declared name that is not active in the program throws too (else: warns once).
+    /// Drivers differ in what they optimise away; Mesa keeps enough for strictness to be right.
+    FrameGraph(ProgramCache& programs, bool software);
+
+    /// Starts declaring a frame. A changed extent drops every texture and so every history.
+    void begin_frame(Extent extent, std::vector<BlockInput> blocks);
+    Extent extent() const { return extent_; }
+
+    TextureHandle create(const std::string& name, GLenum format);
+    /// The same name gives the same pair all frame long.
+    History history(const std::string& name, GLenum format);
+    /// No history is valid in the frame declared next: call it before begin_frame().
+    void forget_histories();
+    /// The reference is valid until the next add_pass().
+    Pass& add_pass(const std::string& name, const std::string& shader);
+    /// Keeps a transient's content until the next begin_frame(), for readback.
+    void keep(TextureHandle texture);
+
+    /// Runs the frame. Throws ShaderError naming pass and variable when declaration and shader
+    /// disagree.
+    void execute();
+
+    /// The texture behind a handle, after execute(), if it was kept or is a history.
+    const Texture& texture(TextureHandle handle) const;
+    std::vector<TimedPass> collect_times() { return timer_.collect(); }
+    /// Bytes of all textures held, and how many.
+    std::size_t texture_bytes() const;
+    std::vector<std::string> pass_names() const;
+
+private:
+    struct Resource {
+        std::string name;
+        GLenum format = 0;
+        std::shared_ptr<Texture> texture;  ///< Transients get theirs when first written.
+        int last_pass = -1;
+        bool transient = true;
+        bool written = false;
+        bool kept = false;
+    };
+    struct HistoryPair {
+        std::shared_ptr<Texture> textures[2];
+        int current = 0;
+        bool written_last_frame = false;
+        int resource_previous = -1;
+        int resource_current = -1;
+    };
+
+    void check(const Pass& pass, const Program& program) const;
+    void check_declared(const Pass& pass, const Program& program) const;
+    void complain(const Pass& pass, const std::string& variable, const std::string& problem) const;
+    void find_lifetimes();
+    void run(const Pass& pass, int pass_index);
+    void acquire(Resource& resource);
+    void bind_textures(const Pass& pass, const Program& program);
+    void set_constants(const Pass& pass, const Program& program) const;
+    void place_barrier(const Pass& pass);
+
+    ProgramCache& programs_;
+    bool strict_;
+    GpuTimer timer_;
+    Extent extent_;
+    std::vector<BlockInput> blocks_;
+    std::vector<Resource> resources_;
+    std::vector<Pass> passes_;
+    std::map<std::string, HistoryPair> histories_;
+    std::vector<std::shared_ptr<Texture>> pool_;
+    std::vector<GLuint> dirty_;  ///< Textures written since the last barrier.
+};
+
+}  // namespace farlight

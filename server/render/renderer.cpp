@@ -1,0 +1,276 @@
+// The render thread: owns the context, asks sources for work, draws, hands pixels back.
+#include "server/render/renderer.h"
+
+#include "server/gl/context.h"
+#include "server/gl/gl_error.h"
+#include "server/render/start_size.h"
+#include "server/render/view.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <future>
+#include <mutex>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace farlight {
+namespace {
+
+struct Client {
+    std::shared_ptr<FrameSource> source;
+    std::unique_ptr<View> view;  ///< Made at the first request, on the render thread.
+    bool in_flight = false;
+    bool leaving = false;
+};
+
+RendererDescription describe(const Context& context, const Scene& scene, const GpuScene& gpu_scene)
+{
+    RendererDescription d;
+    d.device = context.device().selector;
+    d.gl_renderer = context.device().name;
+    d.gl_version = context.device().version;
+    d.software = context.device().software;
+    d.scene_name = scene.name;
+    d.scene_file = scene.file;
+    d.scene_notes = scene.notes;
+    if (gpu_scene.dropped_triangles() > 0)
+        d.scene_notes.push_back(std::to_string(gpu_scene.dropped_triangles())
+            + " triangles of zero area or beyond 32-bit range in world space were left out.");
+    for (const ActiveEffect& effect : gpu_scene.effects())
+        d.effects.push_back(std::string(effect.name) + ": " + effect.reason);
+    d.camera = scene.camera;
+    d.camera_paths = scene.camera_paths;
+    d.bounds = scene_bounds(scene);
+    d.triangles = gpu_scene.triangle_count();
+    d.lights = gpu_scene.light_count();
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    d.max_dimension = std::min(limit, 8192);  // above it one frame's buffers alone pass 16 GB
+    return d;
+}
+
+}  // namespace
+
+struct Renderer::State {
+    Scene scene;
+    RendererOptions options;
+    RendererDescription description;
+
+    std::mutex mutex;
+    std::condition_variable work;  ///< Something may have changed for the render thread.
+    std::condition_variable left;  ///< A leaving client is gone.
+    std::vector<std::shared_ptr<Client>> clients;
+    std::string failure;
+    bool woken = false;
+    bool stopping = false;
+    std::atomic<std::uint64_t> frames_rendered = 0;
+    std::thread thread;
+
+    void run(std::promise<void> ready);
+    void serve(const SharedScene& scene);
+    std::vector<std::shared_ptr<Client>> take_clients();
+    bool advance(Client& client, const SharedScene& scene);
+    bool alone();
+    void finish(Client& client);
+    void fail(Client& client, const std::string& message);
+    void lose_device(const std::string& message);
+};
+
+/// Everything that touches GL, from the first context to the last texture.
+void Renderer::State::run(std::promise<void> ready)
+{
+    std::unique_ptr<Context> context;
+    try {
+        context = std::make_unique<Context>(options.device);
+        ProgramCache programs;
+        const GpuScene gpu_scene(scene);
+        description = describe(*context, scene, gpu_scene);
+        const double radius = description.bounds.empty() ? 1 : description.bounds.radius();
+        const SharedScene shared{programs, {gpu_scene.textures(), gpu_scene.defines()},
+            scene.background, static_cast<float>(radius), description.software};
+        description.default_extent =
+            options.extent ? *options.extent : start_extent(shared, scene.camera, options.settings);
+        scene.meshes.clear();  // the device has them now
+        ready.set_value();
+        serve(shared);
+        const std::lock_guard lock(mutex);
+        clients.clear();
+    } catch (...) {
+        ready.set_exception(std::current_exception());
+    }
+}
+
+/// Drops leaving clients, and gives the ones to serve this round. Waits while there is nothing to
+/// do.
+std::vector<std::shared_ptr<Client>> Renderer::State::take_clients()
+{
+    std::unique_lock lock(mutex);
+    const auto gone = std::remove_if(
+        clients.begin(), clients.end(), [](const auto& client) { return client->leaving; });
+    if (gone != clients.end()) {
+        clients.erase(gone, clients.end());
+        left.notify_all();
+    }
+    return clients;
+}
+
+void Renderer::State::serve(const SharedScene& shared)
+{
+    for (;;) {
+        bool drew = false;
+        for (const auto& client : take_clients())
+            drew = advance(*client, shared) || drew;
+        if (drew)
+            continue;
+        std::unique_lock lock(mutex);
+        const bool leaving =
+            std::any_of(clients.begin(), clients.end(), [](const auto& c) { return c->leaving; });
+        if (!leaving && !stopping)
+            work.wait(lock, [this] { return woken || stopping; });
+        if (stopping)
+            return;
+        woken = false;
+    }
+}
+
+/// One step for one client: returns its finished frame, starts its next. True if there was anything
+/// to do.
+bool Renderer::State::advance(Client& client, const SharedScene& shared)
+{
+    bool busy = client.in_flight;
+    try {
+        if (client.in_flight)
+            finish(client);
+        {
+            const std::lock_guard lock(mutex);
+            if (client.leaving || stopping || !failure.empty())
+                return busy;
+        }
+        const std::optional<RenderRequest> request = client.source->next_request();
+        if (!request)
+            return busy;
+        busy = true;
+        if (client.view == nullptr)
+            client.view = std::make_unique<View>(shared);
+        client.view->begin(*request);
+        client.in_flight = true;
+        if (shared.software || alone())
+            finish(client);  // nobody else's commands to overlap with
+    } catch (const GlError& error) {
+        lose_device(error.what());
+        fail(client, error.what());
+    } catch (const std::exception& error) {
+        fail(client, error.what());
+    }
+    return busy;
+}
+
+bool Renderer::State::alone()
+{
+    const std::lock_guard lock(mutex);
+    return clients.size() == 1;
+}
+
+void Renderer::State::finish(Client& client)
+{
+    client.in_flight = false;
+    RenderedFrame frame = client.view->finish();
+    ++frames_rendered;
+    client.source->frame_done(std::move(frame));
+}
+
+void Renderer::State::fail(Client& client, const std::string& message)
+{
+    spdlog::error("frame failed: {}", message);
+    client.in_flight = false;
+    RenderedFrame frame;
+    frame.error = message;
+    client.source->frame_done(std::move(frame));
+}
+
+void Renderer::State::lose_device(const std::string& message)
+{
+    const std::lock_guard lock(mutex);
+    failure = message;
+}
+
+Renderer::Renderer(Scene scene, const RendererOptions& options) : state_(std::make_unique<State>())
+{
+    state_->scene = std::move(scene);
+    state_->options = options;
+    std::promise<void> ready;
+    std::future<void> started = ready.get_future();
+    state_->thread = std::thread([state = state_.get(), promise = std::move(ready)]() mutable {
+        state->run(std::move(promise));
+    });
+    try {
+        started.get();
+    } catch (...) {
+        state_->thread.join();
+        throw;
+    }
+}
+
+Renderer::~Renderer()
+{
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->stopping = true;
+    }
+    state_->work.notify_all();
+    state_->left.notify_all();
+    state_->thread.join();
+}
+
+const RendererDescription& Renderer::description() const
+{
+    return state_->description;
+}
+
+void Renderer::attach(std::shared_ptr<FrameSource> source)
+{
+    auto client = std::make_shared<Client>();
+    client->source = std::move(source);
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->clients.push_back(std::move(client));
+    }
+    wake();
+}
+
+void Renderer::detach(const std::shared_ptr<FrameSource>& source)
+{
+    std::unique_lock lock(state_->mutex);
+    const auto attached = [&] {
+        return std::any_of(state_->clients.begin(), state_->clients.end(),
+            [&](const auto& client) { return client->source == source; });
+    };
+    for (const auto& client : state_->clients)
+        client->leaving = client->leaving || client->source == source;
+    state_->woken = true;
+    state_->work.notify_all();
+    state_->left.wait(lock, [&] { return !attached() || state_->stopping; });
+}
+
+void Renderer::wake()
+{
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->woken = true;
+    }
+    state_->work.notify_all();
+}
+
+std::string Renderer::failure() const
+{
+    const std::lock_guard lock(state_->mutex);
+    return state_->failure;
+}
+
+std::uint64_t Renderer::frames_rendered() const
+{
+    return state_->frames_rendered;
+}
+
+}  // namespace farlight

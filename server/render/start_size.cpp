@@ -1,0 +1,37 @@
+#include "server/render/start_size.h"
+
+#include <algorithm>
+
+namespace farlight {
+
+Extent largest_extent_within(double ms_per_pixel, double budget_ms)
+{
+    // Multiples of 16 wide, exactly 16:9.
+    for (int width = 1280; width > 128; width -= 16) {
+        const Extent extent{width, width * 9 / 16};
+        if (ms_per_pixel * extent.width * extent.height <= budget_ms)
+            return extent;
+    }
+    return {128, 72};
+}
+
+Extent start_extent(
+    const SharedScene& scene, const CameraPose& camera, const RenderSettings& settings)
+{
+    constexpr Extent kProbe{192, 108};
+    constexpr double kBudgetMs = 80;
+    View view(scene);
+    RenderRequest request;
+    request.camera = camera;
+    request.settings = settings;
+    request.extent = kProbe;
+    view.render(request);  // compiles the shaders
+    double slowest = 0;
+    for (int i = 0; i < 3; ++i) {
+        const RenderedFrame frame = view.render(request);
+        slowest = std::max(slowest, frame.trace_ms + frame.denoise_ms);
+    }
+    return largest_extent_within(slowest / (kProbe.width * kProbe.height), kBudgetMs);
+}
+
+}  // namespace farlight

@@ -1,0 +1,101 @@
+#include "server/render/view.h"
+
+#include "server/render/camera.h"
+#include "server/render/frame.h"
+
+namespace farlight {
+namespace {
+
+template <typename T> std::span<const std::byte> object_bytes(const T& object)
+{
+    return std::as_bytes(std::span<const T, 1>(&object, 1));
+}
+
+}  // namespace
+
+View::View(const SharedScene& scene)
+    : scene_(scene)
+    , graph_(scene.programs, scene.software)
+    , constants_("frame constants", object_bytes(shared::FrameConstants{}))
+    , counters_("counters", object_bytes(std::uint32_t{0}))
+{
+}
+
+/// Brings the counts of frames up to date with what changed since the last request.
+void View::follow(const RenderRequest& request)
+{
+    const RenderSettings& s = request.settings;
+    const SampleKey key{request.camera, request.extent, s.samples_per_pixel, s.max_depth,
+        s.roulette_depth, s.light_sampling, s.seed};
+    if (request.reset_history || request.extent != key_.extent)
+        has_history_ = false;
+    if (!has_history_)
+        frame_index_ = 0;
+    const bool same = has_history_ && key == key_;
+    const bool averages = request.refine || s.denoiser == Denoiser::kAccumulate;
+    still_frames_ = same ? still_frames_ + 1 : 1;
+    mean_frames_ = averages ? (same ? mean_frames_ + 1 : 1) : 0;
+    key_ = key;
+}
+
+void View::upload_constants(const RenderRequest& request)
+{
+    shared::FrameConstants constants{};
+    constants.camera = camera_constants(request.camera, request.extent);
+    constants.prev_camera =
+        has_history_ ? camera_constants(prev_camera_, request.extent) : constants.camera;
+    constants.background = scene_.background;
+    constants.frame_index = frame_index_;
+    constants.extent = {request.extent.width, request.extent.height};
+    constants.seed = request.settings.seed;
+    constants_.update(object_bytes(constants));
+    counters_.update(object_bytes(std::uint32_t{0}));
+}
+
+void View::begin(const RenderRequest& request)
+{
+    follow(request);
+    upload_constants(request);
+    if (!has_history_)
+        graph_.forget_histories();
+
+    FramePlan plan;
+    plan.settings = request.settings;
+    plan.mean_frames = std::max(mean_frames_, 1);
+    plan.refine = request.refine;
+    plan.scene_radius = scene_.radius;
+    plan.linear_output = request.format == PixelFormat::kRgb32f;
+    graph_.begin_frame(
+        request.extent, {{"frame_block", constants_.id()}, {"counter_block", counters_.id()}});
+    const TextureHandle result = build_frame(graph_, scene_.inputs, plan);
+    graph_.keep(result);
+    graph_.execute();
+    readback_.begin(graph_.texture(result));
+
+    frame_ = RenderedFrame{};
+    frame_.history_reset = !has_history_;
+    const int averaged = mean_frames_ > 0 ? mean_frames_ : still_frames_;
+    frame_.accumulated_samples = static_cast<std::uint32_t>(averaged)
+        * static_cast<std::uint32_t>(request.settings.samples_per_pixel);
+    frame_.converged =
+        frame_.accumulated_samples >= static_cast<std::uint32_t>(request.settings.still_samples);
+    prev_camera_ = request.camera;
+    has_history_ = true;
+    ++frame_index_;
+}
+
+RenderedFrame View::finish()
+{
+    frame_.image = readback_.finish();
+    glGetNamedBufferSubData(
+        counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
+    bool traced = false;
+    for (const TimedPass& pass : graph_.collect_times()) {
+        frame_.pass_times.push_back({pass.name, pass.milliseconds});
+        (traced ? frame_.denoise_ms : frame_.trace_ms) += pass.milliseconds;
+        traced = traced || pass.name == "path_trace";
+    }
+    return std::move(frame_);
+}
+
+}  // namespace farlight

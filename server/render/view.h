@@ -1,0 +1,73 @@
+// View: one client's picture on the GPU: its camera of last frame, its histories, its accumulated
+// mean.
+#pragma once
+
+#include "server/gl/buffer.h"
+#include "server/gl/program_cache.h"
+#include "server/render/frame_graph.h"
+#include "server/render/readback.h"
+#include "server/render/renderer.h"
+#include "server/scene/gpu_scene.h"
+
+namespace farlight {
+
+/// What all views of a renderer share.
+struct SharedScene {
+    ProgramCache& programs;
+    SceneInputs inputs;
+    glm::vec3 background{0};
+    float radius = 1;  ///< [m]
+    bool software = false;
+};
+
+/// GL thread only.
+class View {
+public:
+    /// `scene` must outlive the view.
+    explicit View(const SharedScene& scene);
+
+    /// Issues the frame's commands; finish() must follow before the next begin(). Throws GlError,
+    /// ShaderError.
+    void begin(const RenderRequest& request);
+    /// Waits for the frame and returns it.
+    RenderedFrame finish();
+
+    RenderedFrame render(const RenderRequest& request)
+    {
+        begin(request);
+        return finish();
+    }
+    const FrameGraph& graph() const { return graph_; }
+
+private:
+    /// What the samples of a frame depend on: while it stays, samples may be averaged.
+    struct SampleKey {
+        CameraPose camera;
+        Extent extent;
+        int samples_per_pixel = 0;
+        int max_depth = 0;
+        int roulette_depth = 0;
+        bool light_sampling = false;
+        std::uint32_t seed = 0;
+
+        bool operator==(const SampleKey&) const = default;
+    };
+
+    void follow(const RenderRequest& request);
+    void upload_constants(const RenderRequest& request);
+
+    const SharedScene& scene_;
+    FrameGraph graph_;
+    Buffer constants_;
+    Buffer counters_;
+    Readback readback_;
+    SampleKey key_;
+    CameraPose prev_camera_;
+    bool has_history_ = false;
+    std::uint32_t frame_index_ = 0;
+    int still_frames_ = 0;  ///< Frames since the key last changed, with this one.
+    int mean_frames_ = 0;  ///< Frames in the running mean, with this one; 0: it does not run.
+    RenderedFrame frame_;  ///< Of the frame in flight.
+};
+
+}  // namespace farlight

@@ -1,0 +1,240 @@
+#include "server/scene/bvh.h"
+
+#include "shaders/shared/scene_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <embree3/rtcore.h>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace farlight {
+namespace {
+
+/// A node while Embree builds it; lives in Embree's arena.
+struct BuildNode {
+    unsigned count = 0;  ///< Children of an inner node, primitives of a leaf.
+    bool leaf = false;
+    std::array<RTCBounds, kBvhWidth> bounds;
+    std::array<BuildNode*, kBvhWidth> children;
+    std::array<unsigned, kBvhMaxLeaf> primitives;
+};
+
+struct Device {
+    RTCDevice device = rtcNewDevice(nullptr);
+    ~Device() { rtcReleaseDevice(device); }
+};
+
+struct Tree {
+    RTCBVH arena = nullptr;
+    BuildNode* root = nullptr;
+    RTCBounds bounds{};
+};
+
+BuildNode* new_node(RTCThreadLocalAllocator allocator)
+{
+    return new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16)) BuildNode();
+}
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned count, void*)
+{
+    BuildNode* node = new_node(allocator);
+    node->count = count;
+    return node;
+}
+
+void set_children(void* node, void** children, unsigned count, void*)
+{
+    for (unsigned i = 0; i < count; ++i)
+        static_cast<BuildNode*>(node)->children[i] = static_cast<BuildNode*>(children[i]);
+}
+
+void set_bounds(void* node, const RTCBounds** bounds, unsigned count, void*)
+{
+    for (unsigned i = 0; i < count; ++i)
+        static_cast<BuildNode*>(node)->bounds[i] = *bounds[i];
+}
+
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives,
+    std::size_t count, void*)
+{
+    assert(count <= kBvhMaxLeaf);
+    BuildNode* node = new_node(allocator);
+    node->leaf = true;
+    node->count = static_cast<unsigned>(count);
+    for (std::size_t i = 0; i < count; ++i)
+        node->primitives[i] = primitives[i].primID;
+    // Embree's threads may deliver a leaf in any order; ours is one.
+    std::sort(node->primitives.begin(), node->primitives.begin() + node->count);
+    return node;
+}
+
+Tree build_tree(RTCDevice device, std::vector<RTCBuildPrimitive> primitives)
+{
+    Tree tree;
+    if (primitives.empty())
+        return tree;
+    tree.bounds = {primitives[0].lower_x, primitives[0].lower_y, primitives[0].lower_z, 0,
+        primitives[0].upper_x, primitives[0].upper_y, primitives[0].upper_z, 0};
+    for (const RTCBuildPrimitive& p : primitives) {
+        RTCBounds& b = tree.bounds;
+        b.lower_x = std::min(b.lower_x, p.lower_x), b.upper_x = std::max(b.upper_x, p.upper_x);
+        b.lower_y = std::min(b.lower_y, p.lower_y), b.upper_y = std::max(b.upper_y, p.upper_y);
+        b.lower_z = std::min(b.lower_z, p.lower_z), b.upper_z = std::max(b.upper_z, p.upper_z);
+    }
+    tree.arena = rtcNewBVH(device);
+    RTCBuildArguments arguments = rtcDefaultBuildArguments();
+    arguments.maxBranchingFactor = kBvhWidth;
+    arguments.maxLeafSize = kBvhMaxLeaf;
+    arguments.maxDepth = 64;
+    arguments.bvh = tree.arena;
+    arguments.primitives = primitives.data();
+    arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();
+    arguments.createNode = create_node;
+    arguments.setNodeChildren = set_children;
+    arguments.setNodeBounds = set_bounds;
+    arguments.createLeaf = create_leaf;
+    tree.root = static_cast<BuildNode*>(rtcBuildBVH(&arguments));
+    if (tree.root == nullptr)
+        throw std::runtime_error("Embree could not build the bounding volume hierarchy");
+    return tree;
+}
+
+/// Writes nodes depth first.
+class Packer {
+public:
+    Packer(Bvh& bvh, unsigned kind_bit) : bvh_(bvh), kind_bit_(kind_bit) { }
+
+    unsigned pack(const BuildNode& node)
+    {
+        if (node.leaf) {
+            const auto first = static_cast<unsigned>(bvh_.order.size()) - first_of_kind_;
+            bvh_.order.insert(
+                bvh_.order.end(), node.primitives.begin(), node.primitives.begin() + node.count);
+            return BVH_LEAF_BIT | kind_bit_ | ((node.count - 1) << BVH_COUNT_SHIFT) | first;
+        }
+        std::array<const BuildNode*, kBvhWidth> children{};
+        std::copy(node.children.begin(), node.children.begin() + node.count, children.begin());
+        return pack_children(children, node.bounds);
+    }
+
+    unsigned pack_children(const std::array<const BuildNode*, kBvhWidth>& children,
+        const std::array<RTCBounds, kBvhWidth>& bounds)
+    {
+        const auto at = static_cast<unsigned>(bvh_.nodes.size());
+        bvh_.nodes.resize(at + BVH_NODE_TEXELS);
+        write_bounds(at, children, bounds);
+        for (int i = 0; i < kBvhWidth; ++i) {
+            const BuildNode* child = children[static_cast<std::size_t>(i)];
+            const unsigned word = child == nullptr ? BVH_NO_CHILD : pack(*child);
+            bvh_.nodes[at + 6][i] = word;
+        }
+        return at;
+    }
+
+    void begin_kind(unsigned kind_bit)
+    {
+        kind_bit_ = kind_bit;
+        first_of_kind_ = static_cast<unsigned>(bvh_.order.size());
+    }
+
+private:
+    /// A missing child's box is a point that no ray with t <= 1e30 reaches.
+    void write_bounds(unsigned at, const std::array<const BuildNode*, kBvhWidth>& children,
+        const std::array<RTCBounds, kBvhWidth>& bounds)
+    {
+        constexpr float kNowhere = 3e37F;
+        for (int i = 0; i < kBvhWidth; ++i) {
+            std::array<float, 6> box;
+            box.fill(kNowhere);
+            const RTCBounds& b = bounds[static_cast<std::size_t>(i)];
+            if (children[static_cast<std::size_t>(i)] != nullptr)
+                box = {b.lower_x, b.lower_y, b.lower_z, b.upper_x, b.upper_y, b.upper_z};
+            for (unsigned k = 0; k < 6; ++k)
+                bvh_.nodes[at + k][i] = std::bit_cast<unsigned>(box[k]);
+        }
+    }
+
+    Bvh& bvh_;
+    unsigned kind_bit_;
+    unsigned first_of_kind_ = 0;
+};
+
+/// Most stack entries below a packed node: all children but one wait while the deepest is visited.
+int stack_need(const Bvh& bvh, unsigned at)
+{
+    int children = 0;
+    int deepest = 0;
+    for (int i = 0; i < kBvhWidth; ++i) {
+        const unsigned word = bvh.nodes[at + 6][i];
+        if (word == BVH_NO_CHILD)
+            continue;
+        ++children;
+        if ((word & BVH_LEAF_BIT) == 0)
+            deepest = std::max(deepest, stack_need(bvh, word));
+    }
+    return std::max(children - 1, 0) + deepest;
+}
+
+RTCBuildPrimitive embree_primitive(const PrimitiveBounds& bounds, std::size_t index)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(bounds.lower[axis] <= bounds.upper[axis] && std::abs(bounds.lower[axis]) < 1e30F
+                && std::abs(bounds.upper[axis]) < 1e30F))
+            throw std::invalid_argument("primitive " + std::to_string(index)
+                + ": bounds are not finite and below 1e30, so no tree can hold it");
+    RTCBuildPrimitive primitive{};
+    primitive.lower_x = bounds.lower.x, primitive.lower_y = bounds.lower.y,
+    primitive.lower_z = bounds.lower.z;
+    primitive.upper_x = bounds.upper.x, primitive.upper_y = bounds.upper.y,
+    primitive.upper_z = bounds.upper.z;
+    primitive.primID = static_cast<unsigned>(index);
+    return primitive;
+}
+
+}  // namespace
+
+Bvh build_bvh(std::span<const PrimitiveBounds> bounds, std::span<const std::uint8_t> kind_of)
+{
+    assert(bounds.size() == kind_of.size());
+    std::array<std::vector<RTCBuildPrimitive>, 2> primitives;
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+        primitives[kind_of[i]].push_back(embree_primitive(bounds[i], i));
+
+    const Device embree;
+    Bvh bvh;
+    std::array<Tree, 2> trees{build_tree(embree.device, std::move(primitives[0])),
+        build_tree(embree.device, std::move(primitives[1]))};
+
+    // The root's children are the trees of the two kinds; a lone inner tree is its own root.
+    Packer packer(bvh, 0);
+    const bool lone = trees[0].root != nullptr && trees[1].root == nullptr && !trees[0].root->leaf;
+    if (lone) {
+        packer.pack(*trees[0].root);
+    } else {
+        packer.pack_children({}, {});
+        for (int kind = 0; kind < 2; ++kind) {
+            const Tree& tree = trees[static_cast<std::size_t>(kind)];
+            packer.begin_kind(kind == 0 ? 0 : BVH_SPHERE_BIT);
+            if (tree.root == nullptr)
+                continue;
+            const unsigned word = packer.pack(*tree.root);  // may move bvh.nodes
+            bvh.nodes[6][kind] = word;
+            const RTCBounds& b = tree.bounds;
+            const std::array<float, 6> box{
+                b.lower_x, b.lower_y, b.lower_z, b.upper_x, b.upper_y, b.upper_z};
+            for (unsigned k = 0; k < 6; ++k)
+                bvh.nodes[k][kind] = std::bit_cast<unsigned>(box[k]);
+        }
+    }
+    for (const Tree& tree : trees)
+        if (tree.arena != nullptr)
+            rtcReleaseBVH(tree.arena);
+    bvh.stack_depth = stack_need(bvh, 0);
+    return bvh;
+}
+
+}  // namespace farlight

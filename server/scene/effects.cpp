@@ -1,0 +1,99 @@
+#include "server/scene/effects.h"
+
+#include <functional>
+
+namespace farlight {
+namespace {
+
+bool emits(const Scene& scene, const Object& object)
+{
+    const glm::vec3& emission = scene.materials[object.material].emission;
+    return emission.x > 0 || emission.y > 0 || emission.z > 0;
+}
+
+/// "N THINGS, first 'name'" for the objects that `wanted` accepts.
+std::optional<std::string> objects_that(
+    const Scene& scene, const char* things, const std::function<bool(const Object&)>& wanted)
+{
+    std::size_t count = 0;
+    const Object* first = nullptr;
+    for (const Object& object : scene.objects)
+        if (wanted(object)) {
+            ++count;
+            first = first == nullptr ? &object : first;
+        }
+    if (first == nullptr)
+        return std::nullopt;
+    return std::to_string(count) + " " + things + ", first '" + first->name + "'";
+}
+
+bool is_sphere(const Object& object)
+{
+    return std::holds_alternative<Sphere>(object.shape);
+}
+
+std::optional<std::string> triangles(const Scene& scene)
+{
+    return objects_that(
+        scene, "meshes and quads", [](const Object& object) { return !is_sphere(object); });
+}
+
+std::optional<std::string> spheres(const Scene& scene)
+{
+    return objects_that(scene, "spheres", is_sphere);
+}
+
+std::optional<std::string> shading_normals(const Scene& scene)
+{
+    return objects_that(scene, "smooth meshes", [&](const Object& object) {
+        const auto* instance = std::get_if<MeshInstance>(&object.shape);
+        return instance != nullptr && !scene.meshes[instance->mesh].normals.empty();
+    });
+}
+
+std::optional<std::string> polygon_lights(const Scene& scene)
+{
+    return objects_that(scene, "emissive meshes and quads",
+        [&](const Object& object) { return !is_sphere(object) && emits(scene, object); });
+}
+
+std::optional<std::string> sphere_lights(const Scene& scene)
+{
+    return objects_that(scene, "emissive spheres",
+        [&](const Object& object) { return is_sphere(object) && emits(scene, object); });
+}
+
+std::optional<std::string> background(const Scene& scene)
+{
+    const glm::vec3& radiance = scene.background;
+    if (radiance == glm::vec3(0))
+        return std::nullopt;
+    return "background radiance " + std::to_string(radiance.x) + " " + std::to_string(radiance.y)
+        + " " + std::to_string(radiance.z);
+}
+
+}  // namespace
+
+const std::vector<Effect>& effect_registry()
+{
+    static const std::vector<Effect> effects{
+        {"triangles", "FX_TRIANGLES", triangles},
+        {"spheres", "FX_SPHERES", spheres},
+        {"shading normals", "FX_SHADING_NORMALS", shading_normals},
+        {"polygon lights", "FX_POLYGON_LIGHTS", polygon_lights},
+        {"sphere lights", "FX_SPHERE_LIGHTS", sphere_lights},
+        {"background", "FX_BACKGROUND", background},
+    };
+    return effects;
+}
+
+std::vector<ActiveEffect> active_effects(const Scene& scene)
+{
+    std::vector<ActiveEffect> active;
+    for (const Effect& effect : effect_registry())
+        if (auto reason = effect.reason(scene))
+            active.push_back({effect.name, effect.macro, *std::move(reason)});
+    return active;
+}
+
+}  // namespace farlight

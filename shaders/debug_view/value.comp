@@ -1,0 +1,55 @@
+// One buffer behind the picture as numbers: what `raw` frames of a debug view hold.
+//
+//   in   in_texture  any      the buffer (VIEW_* says which and how it is read)
+//   out  out_value   rgba32f  its value
+//
+//   VIEW_COLOR     rgb as it is           VIEW_ALPHA      a of a float texture, thrice
+//   VIEW_RED       r, thrice              VIEW_DEPTH      view depth [m], thrice
+//   VIEW_GRADIENT  dz/dx, dz/dy, 0        VIEW_SHADING    shading normal
+//   VIEW_OBJECT    object id              VIEW_MATERIAL   material id
+//   VIEW_GEOMETRIC geometric normal
+#version 450
+#include "lib/frame.glsl"
+#include "lib/packing.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+#if defined(VIEW_COLOR) || defined(VIEW_ALPHA) || defined(VIEW_RED)
+uniform sampler2D in_texture;
+#else
+uniform usampler2D in_texture;
+#endif
+uniform writeonly image2D out_value;
+
+vec3 value_at(ivec2 px)
+{
+#if defined(VIEW_COLOR)
+    return texelFetch(in_texture, px, 0).rgb;
+#elif defined(VIEW_ALPHA)
+    return texelFetch(in_texture, px, 0).aaa;
+#elif defined(VIEW_RED)
+    return texelFetch(in_texture, px, 0).rrr;
+#else
+    const uvec4 bits = texelFetch(in_texture, px, 0);
+#if defined(VIEW_DEPTH)
+    return vec3(uintBitsToFloat(bits.x));
+#elif defined(VIEW_GRADIENT)
+    return vec3(uintBitsToFloat(bits.yz), 0.0);
+#elif defined(VIEW_SHADING)
+    return uintBitsToFloat(bits.x) > 0.0 ? unpack_octahedral(bits.w) : vec3(0.0);
+#elif defined(VIEW_GEOMETRIC)
+    return bits.w != 0u ? unpack_octahedral(bits.z) : vec3(0.0);
+#elif defined(VIEW_OBJECT)
+    return vec3(float(bits.x));
+#elif defined(VIEW_MATERIAL)
+    return vec3(float(bits.y));
+#endif
+#endif
+}
+
+void main()
+{
+    const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
+    if (inside_frame(px))
+        imageStore(out_value, px, vec4(value_at(px), 1.0));
+}

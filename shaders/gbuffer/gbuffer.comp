@@ -1,0 +1,64 @@
+// G-buffer: what the ray through each pixel's middle meets first.
+//
+//   out  out_surface   rgba32ui  view depth [m] and its change per pixel along x and y, as float bits; shading normal
+//                                (octahedral). Depth 0 marks a miss.
+//        out_identity  rgba32ui  object id, material id, geometric normal (octahedral), 1 on a hit
+//        out_position  rgba32f   world position [m]; offset for rays that leave it [m]
+//        out_albedo    rgba32f   reflectance
+//        out_emission  rgba32f   radiance that bypasses the filter: emitters seen directly, background
+//        out_motion    rgba32f   where the surface was: previous minus current pixel (xy) [px], previous minus
+//                                current view depth (z) [m], 1 if it was ahead of the previous camera (w)
+#version 450
+#include "lib/frame.glsl"
+#include "geometry/surface.glsl"
+#include "lights/light.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+uniform writeonly uimage2D out_surface;
+uniform writeonly uimage2D out_identity;
+uniform writeonly image2D out_position;
+uniform writeonly image2D out_albedo;
+uniform writeonly image2D out_emission;
+uniform writeonly image2D out_motion;
+
+// View depth and its screen derivatives: the tangent plane's depth at pixel p is n.(X - C) / n.d(p).
+vec3 depth_and_gradient(vec3 direction, vec3 position, vec3 normal)
+{
+    const float depth = dot(position - frame.camera.position, frame.camera.forward);
+    const float n_d = dot(normal, direction);
+    const vec3 d_dx = frame.camera.right * (2.0 / float(frame.extent.x));
+    const vec3 d_dy = -frame.camera.up * (2.0 / float(frame.extent.y));
+    return vec3(depth, -depth * vec2(dot(normal, d_dx), dot(normal, d_dy)) / n_d);
+}
+
+// Both projections run the same arithmetic, so a camera at rest gives exactly zero.
+vec4 motion_of(vec3 position, vec3 prev_position)
+{
+    const vec3 now = camera_project(frame.camera, position);
+    const vec3 before = camera_project(frame.prev_camera, prev_position);
+    return before.z > 0.0 ? vec4(before - now, 1.0) : vec4(0.0);
+}
+
+void main()
+{
+    const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
+    if (!inside_frame(px))
+        return;
+    const vec3 direction = camera_direction(frame.camera, vec2(px) + 0.5);
+    const Ray ray = Ray(frame.camera.position, normalize(direction));
+    const Hit hit = closest_hit(ray, T_INFINITY);
+    const Surface s = surface_at(hit, ray);
+    const Primitive primitive = load_primitive(s.primitive);
+    const Material material = load_material(primitive.material);
+    const vec3 depth = depth_and_gradient(direction, s.position, s.geometric_normal);
+
+    const bool met = hit.slot != NO_HIT;
+    imageStore(out_surface, px, met ? uvec4(floatBitsToUint(depth), pack_octahedral(s.shading_normal)) : uvec4(0u));
+    imageStore(out_identity, px,
+        met ? uvec4(primitive.object, primitive.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
+    imageStore(out_position, px, met ? vec4(s.position, s.offset) : vec4(0.0));
+    imageStore(out_albedo, px, met ? vec4(material.albedo, 1.0) : vec4(0.0));
+    imageStore(out_emission, px, vec4(met ? emitted(material, s.front) : frame.background, 1.0));
+    imageStore(out_motion, px, met ? motion_of(s.position, s.position) : vec4(0.0));
+}

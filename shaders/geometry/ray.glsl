@@ -1,0 +1,89 @@
+// Rays, hits, and the tests against boxes, triangles and spheres. Free of any buffer, so they can be tested alone.
+#pragma once
+#include "lib/numbers.glsl"
+
+const float T_INFINITY = 1e30;
+const uint NO_HIT = 0xffffffffu;
+
+struct Ray {
+    vec3 origin;
+    vec3 direction;  // unit
+};
+
+struct Hit {
+    float t;
+    uint slot;         // in leaf order, NO_HIT if none; spheres carry BVH_SPHERE_BIT
+    vec2 barycentric;  // weights of the second and third vertex
+};
+
+// A ray prepared for the slab test and the watertight triangle test.
+struct Traversal {
+    vec3 origin;
+    vec3 direction;
+    vec3 inverse_direction;  // finite: a zero component becomes +-1e30
+    vec3 shear;              // of Woop's test: x and y by z, and 1 / z of the permuted direction
+    int axis;                // along which the direction is longest
+};
+
+// Rotates the components so that `axis` comes last; keeps handedness.
+vec3 permute(vec3 v, int axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
+
+Traversal prepare(Ray ray)
+{
+    Traversal t;
+    t.origin = ray.origin;
+    t.direction = ray.direction;
+    const vec3 d = ray.direction;
+    // 1e-30 of a unit vector's length: only what 1 / d cannot represent.
+    t.inverse_direction = vec3(abs(d.x) > 1e-30 ? 1.0 / d.x : 1e30, abs(d.y) > 1e-30 ? 1.0 / d.y : 1e30,
+        abs(d.z) > 1e-30 ? 1.0 / d.z : 1e30);
+    const vec3 a = abs(d);
+    t.axis = a.x > a.y && a.x > a.z ? 0 : a.y > a.z ? 1 : 2;
+    const vec3 p = permute(d, t.axis);
+    t.shear = vec3(p.x / p.z, p.y / p.z, 1.0 / p.z);
+    return t;
+}
+
+// Distance to a triangle, or a negative number. Watertight: two triangles that share an edge or a vertex leave no
+// gap, because each edge function is the difference of two rounded products of the same rounded operands and so
+// never has the wrong sign; a zero counts as inside.
+//
+// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2(1).
+// Differs from the paper: no fallback to double precision where an edge function is zero; both neighbours accept.
+float intersect_triangle(Traversal ray, vec3 v0, vec3 v1, vec3 v2, float t_max, out vec2 barycentric)
+{
+    precise const vec3 a = permute(v0 - ray.origin, ray.axis);
+    precise const vec3 b = permute(v1 - ray.origin, ray.axis);
+    precise const vec3 c = permute(v2 - ray.origin, ray.axis);
+    precise const vec2 a2 = a.xy - ray.shear.xy * a.z;
+    precise const vec2 b2 = b.xy - ray.shear.xy * b.z;
+    precise const vec2 c2 = c.xy - ray.shear.xy * c.z;
+    precise const float u = c2.x * b2.y - c2.y * b2.x;
+    precise const float v = a2.x * c2.y - a2.y * c2.x;
+    precise const float w = b2.x * a2.y - b2.y * a2.x;
+    precise const float determinant = u + v + w;
+    precise const float t = (u * a.z + v * b.z + w * c.z) * ray.shear.z / determinant;
+    const bool outside = (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0);
+    barycentric = vec2(v, w) / determinant;
+    return !outside && determinant != 0.0 && t > 0.0 && t < t_max ? t : -1.0;
+}
+
+// Distance to a sphere, or a negative number; the first of its two sides ahead of the origin.
+//
+// Source: Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection",
+// Ray Tracing Gems, chapter 7: the discriminant from the rejection vector, the roots without cancellation.
+float intersect_sphere(Traversal ray, vec3 center, float radius, float t_max)
+{
+    precise const vec3 f = ray.origin - center;
+    precise const float b = -dot(f, ray.direction);
+    precise const vec3 rejection = f + b * ray.direction;
+    precise const float discriminant = radius * radius - dot(rejection, rejection);
+    if (!(discriminant >= 0.0))
+        return -1.0;
+    precise const float c = dot(f, f) - radius * radius;
+    precise const float q = b + (b >= 0.0 ? sqrt(discriminant) : -sqrt(discriminant));
+    const float t_a = min(q, c / q);
+    const float t_b = max(q, c / q);
+    const float t = t_a > 0.0 ? t_a : t_b;
+    return t > 0.0 && t < t_max ? t : -1.0;
+}

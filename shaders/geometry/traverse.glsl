@@ -1,0 +1,147 @@
+// Closest-hit and any-hit traversal of the four-wide tree.
+//
+// Both are loops within loops, not branches: llvmpipe runs both sides of an `if` for all lanes but leaves a loop
+// once no lane is in it. The inner loop descends until every lane has a leaf or nothing; the leaf loop tests
+// primitives. The stack holds what the scene's tree can need (BVH_STACK_SIZE, from the builder).
+//
+// Box test: Williams et al. 2005, "An Efficient and Robust Ray-Box Intersection Algorithm"; the far side is
+// widened by 2 ulp as in Ize 2013, "Robust BVH Ray Traversal", so that rounding never loses a box.
+#pragma once
+#include "geometry/ray.glsl"
+#include "geometry/scene.glsl"
+
+struct NodeHit {
+    vec4 t;          // entry distance of each child, T_INFINITY if missed
+    uvec4 children;  // child words
+};
+
+NodeHit intersect_node(Traversal ray, uint node, float t_max)
+{
+    const int at = int(node);
+    const vec4 x0 = (uintBitsToFloat(texelFetch(bvh_nodes, at)) - ray.origin.x) * ray.inverse_direction.x;
+    const vec4 y0 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 1)) - ray.origin.y) * ray.inverse_direction.y;
+    const vec4 z0 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 2)) - ray.origin.z) * ray.inverse_direction.z;
+    const vec4 x1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 3)) - ray.origin.x) * ray.inverse_direction.x;
+    const vec4 y1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 4)) - ray.origin.y) * ray.inverse_direction.y;
+    const vec4 z1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 5)) - ray.origin.z) * ray.inverse_direction.z;
+    const vec4 enter = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4(0.0)));
+    const vec4 leave = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * 1.0000004;
+    const bvec4 hit = lessThanEqual(enter, min(leave, vec4(t_max)));
+    return NodeHit(mix(vec4(T_INFINITY), enter, hit), texelFetch(bvh_nodes, at + 6));
+}
+
+// Orders two children by distance.
+void order(inout float t_a, inout float t_b, inout uint a, inout uint b)
+{
+    const bool swap = t_b < t_a;
+    const float t = t_a;
+    const uint c = a;
+    t_a = swap ? t_b : t_a;
+    a = swap ? b : a;
+    t_b = swap ? t : t_b;
+    b = swap ? c : b;
+}
+
+void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
+{
+    const uint slot = (leaf & BVH_FIRST_MASK) + k;
+#ifdef FX_TRIANGLES
+    {
+        const int at = int(slot) * TRIANGLE_TEXELS;
+        vec2 barycentric;
+        const float t = intersect_triangle(ray, uintBitsToFloat(texelFetch(triangles, at).xyz),
+            uintBitsToFloat(texelFetch(triangles, at + 1).xyz), uintBitsToFloat(texelFetch(triangles, at + 2).xyz),
+            hit.t, barycentric);
+        if (t > 0.0 && (leaf & BVH_SPHERE_BIT) == 0u)
+            hit = Hit(t, slot, barycentric);
+    }
+#endif
+#ifdef FX_SPHERES
+    {
+        const vec4 sphere = uintBitsToFloat(texelFetch(spheres, int(slot) * SPHERE_TEXELS));
+        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, hit.t);
+        if (t > 0.0 && (leaf & BVH_SPHERE_BIT) != 0u)
+            hit = Hit(t, slot | BVH_SPHERE_BIT, vec2(0.0));
+    }
+#endif
+}
+
+uint leaf_count(uint leaf) { return ((leaf >> BVH_COUNT_SHIFT) & 3u) + 1u; }
+
+// The nearest hit with 0 < t < t_max; t_max <= 0 traverses nothing.
+Hit closest_hit(Ray r, float t_max)
+{
+    const Traversal ray = prepare(r);
+    Hit hit = Hit(t_max, NO_HIT, vec2(0.0));
+    uint stack[BVH_STACK_SIZE];
+    int depth = 0;
+    uint node = t_max > 0.0 ? 0u : BVH_NO_CHILD;
+    do {
+        do {
+            const bool inner = node < BVH_NO_CHILD;
+            NodeHit box = intersect_node(ray, inner ? node : 0u, hit.t);
+            order(box.t.x, box.t.y, box.children.x, box.children.y);
+            order(box.t.z, box.t.w, box.children.z, box.children.w);
+            order(box.t.x, box.t.z, box.children.x, box.children.z);
+            order(box.t.y, box.t.w, box.children.y, box.children.w);
+            order(box.t.y, box.t.z, box.children.y, box.children.z);
+            if (inner) {
+                if (box.t.w < T_INFINITY)
+                    stack[depth++] = box.children.w;
+                if (box.t.z < T_INFINITY)
+                    stack[depth++] = box.children.z;
+                if (box.t.y < T_INFINITY)
+                    stack[depth++] = box.children.y;
+                node = box.children.x;
+                if (!(box.t.x < T_INFINITY))
+                    node = depth > 0 ? stack[--depth] : BVH_NO_CHILD;
+            }
+        } while (node < BVH_NO_CHILD);
+
+        if (node != BVH_NO_CHILD) {
+            uint k = 0u;
+            do {
+                intersect_primitive(ray, node, k, hit);
+            } while (++k < leaf_count(node));
+            node = depth > 0 ? stack[--depth] : BVH_NO_CHILD;
+        }
+    } while (node != BVH_NO_CHILD);
+    return hit;
+}
+
+// Whether anything lies within 0 < t < t_max; t_max <= 0 traverses nothing.
+bool any_hit(Ray r, float t_max)
+{
+    const Traversal ray = prepare(r);
+    Hit hit = Hit(t_max, NO_HIT, vec2(0.0));
+    uint stack[BVH_STACK_SIZE];
+    int depth = 0;
+    uint node = t_max > 0.0 ? 0u : BVH_NO_CHILD;
+    do {
+        do {
+            const bool inner = node < BVH_NO_CHILD;
+            const NodeHit box = intersect_node(ray, inner ? node : 0u, t_max);
+            if (inner) {
+                node = BVH_NO_CHILD;
+                for (int i = 0; i < 4; ++i) {
+                    if (box.t[i] < T_INFINITY) {
+                        if (node != BVH_NO_CHILD)
+                            stack[depth++] = node;
+                        node = box.children[i];
+                    }
+                }
+                if (node == BVH_NO_CHILD && depth > 0)
+                    node = stack[--depth];
+            }
+        } while (node < BVH_NO_CHILD);
+
+        if (node != BVH_NO_CHILD) {
+            uint k = 0u;
+            do {
+                intersect_primitive(ray, node, k, hit);
+            } while (++k < leaf_count(node));
+            node = depth > 0 && hit.slot == NO_HIT ? stack[--depth] : BVH_NO_CHILD;
+        }
+    } while (node != BVH_NO_CHILD);
+    return hit.slot != NO_HIT;
+}

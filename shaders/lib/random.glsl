@@ -1,0 +1,31 @@
+// Random numbers as a function of (pixel, sample, bounce, slot): no state, so an absent effect shifts nothing.
+//
+// Source: Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", JCGT 9(3): pcg4d.
+#pragma once
+
+// What a number decides. Four numbers a slot.
+const uint SLOT_LIGHT = 0u;  // which light, where on it
+const uint SLOT_BSDF = 1u;   // direction (xy), Russian roulette (z)
+const uint SLOTS = 8u;
+
+uvec4 pcg4d(uvec4 v)
+{
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v ^= v >> 16u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+// Four independent uniform numbers in [0, 1). `sample_index` counts a pixel's samples over all frames.
+vec4 random4(uvec2 px, uint seed, uint sample_index, uint bounce, uint slot)
+{
+    const uvec4 hash = pcg4d(uvec4(px.x, px.y ^ (seed * 0x9e3779b9u), sample_index, bounce * SLOTS + slot));
+    return vec4(hash >> 8u) * exp2(-24.0);
+}
