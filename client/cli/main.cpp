@@ -1,0 +1,78 @@
+// farlight: the native client. One file a command; this one reads the command line and turns errors
+// into exit statuses.
+#include "client/cli/command.h"
+#include "client/json_input.h"
+#include "client/server_process.h"
+
+#include <algorithm>
+#include <iostream>
+
+namespace farlight::client {
+
+void say(const std::string& line)
+{
+    std::cerr << line << "\n";
+}
+
+void print_json(const nlohmann::json& json)
+{
+    std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
+}
+
+double quantile(std::vector<double> values, double share)
+{
+    if (values.empty())
+        return 0;
+    const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    std::nth_element(
+        values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+    return values[at];
+}
+
+namespace {
+
+int run(const std::vector<Command>& commands)
+{
+    for (const Command& command : commands)
+        if (command.app->parsed())
+            return command.run();
+    return kWrongUse;
+}
+
+int guarded_run(const std::vector<Command>& commands)
+{
+    try {
+        return run(commands);
+    } catch (const InputError& problem) {
+        say(std::string("farlight: ") + problem.what());
+        return kWrongUse;
+    } catch (const std::invalid_argument& problem) {
+        say(std::string("farlight: ") + problem.what());
+        return kWrongUse;
+    } catch (const ServerProcessError& problem) {
+        say(std::string("farlight: ") + problem.what());
+        return problem.exit_status == kWrongUse ? kWrongUse : kFailed;
+    } catch (const std::exception& problem) {
+        say(std::string("farlight: ") + problem.what());
+        return kFailed;
+    }
+}
+
+}  // namespace
+}  // namespace farlight::client
+
+int main(int argc, char** argv)
+{
+    using namespace farlight::client;
+    CLI::App app("farlight: asks, records, tests and measures a Farlight render server");
+    app.set_version_flag("--version", "farlight " FARLIGHT_VERSION);
+    app.require_subcommand(1);
+    const std::vector<Command> commands{
+        add_info(app), add_record(app), add_script(app), add_bench(app)};
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& problem) {
+        return app.exit(problem) == 0 ? kDone : kWrongUse;
+    }
+    return guarded_run(commands);
+}
