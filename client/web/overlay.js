@@ -1,0 +1,146 @@
+// The statistics over the picture: what moves, how late it is, and where the milliseconds go.
+import { element, fixed, shortNumber } from "./dom.js";
+
+const REFRESH_MS = 250;   // more often, numbers cannot be read
+const FORMAT_NAMES = { jpeg420: "JPEG 4:2:0", jpeg444: "JPEG 4:4:4", png: "PNG", raw: "raw float" };
+const LEVELS = ["full", "brief", "off"];
+const STAGES = ["wait", "trace", "denoise", "encode"];
+
+const ROWS = [
+    ["rate", "Frame rate", "frames shown a second, over the last 3 s"],
+    ["latency", "Camera to picture", "from sending a camera until its picture is drawn, on this page's clock: median and 95th percentile of the last 60"],
+    ["server", "Server", "time from asking for this frame until it was encoded: wait, trace, denoise, encode"],
+    ["client", "This page", "decoding the newest frame, and from its arrival until it was drawn"],
+    ["network", "Round trip", "a ping to the server and back, median of the last minutes"],
+    ["picture", "Picture", "size and format of the newest frame"],
+    ["traffic", "Traffic", "size of the newest frame, and bytes received a second"],
+    ["samples", "Samples", "paths a pixel in this picture since camera or settings last changed"],
+    ["nonfinite", "Non-finite values", "NaN and infinite values met while drawing; 0 in a healthy picture"],
+];
+
+/** The words for what a frame's flags say. */
+export function stateOf({ flags }) {
+    if (flags.converged)
+        return flags.lossless ? "Final, lossless" : "Final";
+    return flags.still ? "Refining" : "Moving";
+}
+
+function passRow(name) {
+    const [time, fill] = [element("td"), element("span", { className: "fill" })];
+    const track = element("td", { className: "track", "aria-hidden": "true" }, fill);
+    return { time, fill, row: element("tr", {}, element("th", { scope: "row" }, name), time, track) };
+}
+
+export class Overlay {
+    #root; #state; #cells = {}; #bar = {}; #legend = {}; #passes; #graph;
+    #passNames = null; #passRows = [];
+    #frame = null; #statistics;
+    #timer; #drawnAt = -Infinity;
+
+    constructor(root, statistics) {
+        this.#root = root;
+        this.#statistics = statistics;
+        this.#state = element("strong", { className: "state" }, "Waiting for a picture");
+        const rows = ROWS.map(([key, name, help]) => {
+            this.#cells[key] = element("td", { "data-stat": key }, "–");
+            return element("tr", { title: help, "data-row": key }, element("th", { scope: "row" }, name), this.#cells[key]);
+        });
+        const bar = element("div", { className: "bar", "aria-hidden": "true" });
+        const legend = element("p", { className: "legend" });
+        for (const stage of STAGES) {
+            bar.append(this.#bar[stage] = element("span", { className: stage }));
+            this.#legend[stage] = element("b", {}, "–");
+            legend.append(element("span", { className: stage }, `${stage} `, this.#legend[stage]));
+        }
+        this.#graph = element("canvas", { width: 240, height: 32, role: "img", "aria-label": "Camera-to-picture latency of the last 60 moves" });
+        this.#passes = element("tbody");
+        root.append(this.#state, this.#graph, element("table", { className: "figures" }, element("tbody", {}, ...rows)),
+            element("div", { className: "stages" }, bar, legend),
+            element("table", { className: "passes" }, element("caption", {}, "Milliseconds per pass"), this.#passes));
+        this.level = "full";
+    }
+
+    get level() {
+        return this.#root.dataset.level;
+    }
+
+    set level(level) {
+        this.#root.dataset.level = level;
+        this.#root.hidden = level === "off";
+    }
+
+    cycle() {
+        this.level = LEVELS[(LEVELS.indexOf(this.level) + 1) % LEVELS.length];
+    }
+
+    /** A frame was shown: draws its figures, now or when the last ones have been readable for a while. */
+    show(frame) {
+        this.#frame = frame;
+        clearTimeout(this.#timer);
+        const wait = this.#drawnAt + REFRESH_MS - performance.now();
+        if (wait <= 0)
+            this.#draw();
+        else
+            this.#timer = setTimeout(() => this.#draw(), wait);
+    }
+
+    #draw() {
+        this.#drawnAt = performance.now();
+        const { header, passes, bytes, decodeMs, shownMs } = this.#frame;
+        const times = STAGES.map((stage) => header[`${stage}_us`] / 1000);
+        const total = times.reduce((sum, time) => sum + time, 0);
+        const latency = this.#statistics.latency();
+        const rate = this.#statistics.rate(this.#drawnAt);
+        const done = header.flags.converged;
+        this.#state.textContent = stateOf(header);
+        this.#state.dataset.state = done ? "final" : header.flags.still ? "refining" : "moving";
+        const figures = {
+            rate: done ? "at rest" : `${fixed(rate.frames)} /s`,
+            latency: latency.count ? `${fixed(latency.median, 0)} ms, p95 ${fixed(latency.p95, 0)} ms` : "move the camera",
+            server: `${fixed(total)} ms`,
+            client: `decode ${fixed(decodeMs)} ms, shown ${fixed(shownMs)} ms`,
+            network: `${fixed(this.#statistics.roundTrip())} ms`,
+            picture: `${header.width} × ${header.height} ${FORMAT_NAMES[header.format]}`,
+            traffic: `${fixed(bytes / 1000)} kB a frame` + (done ? "" : `, ${shortNumber(rate.bytes / 1000)} kB/s`),
+            samples: `${header.accumulated_samples} a pixel`,
+            nonfinite: String(header.nonfinite_count),
+        };
+        for (const [key, text] of Object.entries(figures))
+            this.#cells[key].textContent = text;
+        this.#cells.nonfinite.classList.toggle("bad", header.nonfinite_count !== 0);
+        STAGES.forEach((stage, i) => {
+            this.#bar[stage].style.flexGrow = times[i];
+            this.#legend[stage].textContent = fixed(times[i]);
+        });
+        this.#drawPasses(passes);
+        this.#drawGraph();
+    }
+
+    #drawPasses(passes) {
+        const longest = Math.max(...passes.map(({ ms }) => ms), 1e-3);
+        const names = passes.map(({ name }) => name).join("\n");
+        if (names !== this.#passNames) {
+            this.#passNames = names;
+            this.#passRows = passes.map(({ name }) => passRow(name));
+            this.#passes.replaceChildren(...this.#passRows.map(({ row }) => row));
+        }
+        passes.forEach(({ ms }, i) => {
+            this.#passRows[i].time.textContent = fixed(ms, 2);
+            this.#passRows[i].fill.style.width = `${100 * ms / longest}%`;
+        });
+    }
+
+    #drawGraph() {
+        const { latencies } = this.#statistics;
+        const context = this.#graph.getContext("2d");
+        const { width, height } = this.#graph;
+        const highest = Math.max(...latencies, 1);
+        const step = width / 60;
+        context.clearRect(0, 0, width, height);
+        context.fillStyle = "#ffb454";
+        latencies.forEach((value, i) => {
+            const bar = Math.max(1, height * value / highest);
+            context.fillRect(width - (latencies.length - i) * step, height - bar, step - 1, bar);
+        });
+    }
+}

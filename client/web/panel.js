@@ -1,0 +1,101 @@
+// The settings the server offers, as rows of controls. The page knows no setting but the three it puts on top.
+import { element } from "./dom.js";
+import { settingRow } from "./controls.js";
+
+const ON_TOP = ["denoiser", "samples_per_pixel", "view"];
+
+export class Panel {
+    #top; #rest; #count; #resetAll; #send;
+    #rows = new Map();       // key -> row
+    #described = new Map();  // key -> the server's description
+    #values = new Map();     // key -> the value that holds on the server
+    #wanted = new Map();     // key -> the value last asked for, not yet on the wire
+    #unanswered = 0;
+
+    /** `nodes` are {top, rest, count, resetAll}; `send(key, value)` asks the server and says whether it could. */
+    constructor(nodes, send) {
+        ({ top: this.#top, rest: this.#rest, count: this.#count, resetAll: this.#resetAll } = nodes);
+        this.#send = send;
+        this.#resetAll.addEventListener("click", () => this.#resetEverything());
+    }
+
+    /** Values that differ from the server's defaults: what a new session starts from. */
+    changed() {
+        return Object.fromEntries([...this.#values].filter(([key, value]) => value !== this.#described.get(key).default));
+    }
+
+    values() {
+        return Object.fromEntries(this.#values);
+    }
+
+    /** The list in `welcome`. Rows are made anew only when the server offers others than before. */
+    describe(settings) {
+        const before = JSON.stringify([...this.#described.values()]);
+        this.#described = new Map(settings.map(({ value, ...description }) => [description.key, description]));
+        if (JSON.stringify([...this.#described.values()]) !== before)
+            this.#build(settings);
+        this.#unanswered = 0;
+        this.#wanted.clear();
+        this.update(Object.fromEntries(settings.map(({ key, value }) => [key, value])));
+    }
+
+    /** What holds on the server. A control that is being moved keeps its place until the last answer is in. */
+    update(values) {
+        this.#unanswered = Math.max(0, this.#unanswered - 1);
+        for (const [key, value] of Object.entries(values)) {
+            if (!this.#described.has(key))
+                continue;
+            this.#values.set(key, value);
+            if (this.#unanswered === 0 && !this.#wanted.has(key))
+                this.#rows.get(key).show(value);
+        }
+        const changed = Object.keys(this.changed()).length;
+        this.#count.textContent = changed ? `${changed} changed` : "";
+        this.#resetAll.disabled = changed === 0;
+    }
+
+    /** A refusal: true if it is about a setting, which then shows the value that holds and the reason. */
+    complain(key, text) {
+        const row = this.#rows.get(key);
+        if (!row)
+            return false;
+        this.#unanswered = Math.max(0, this.#unanswered - 1);
+        row.show(this.#values.get(key));
+        row.complain(text);
+        return true;
+    }
+
+    #build(settings) {
+        this.#rows = new Map(settings.map((setting) =>
+            [setting.key, settingRow(setting, (value) => this.#change(setting.key, value))]));
+        const rank = (setting) => ON_TOP.indexOf(setting.key);
+        const top = settings.filter((setting) => rank(setting) >= 0).sort((a, b) => rank(a) - rank(b));
+        const rest = settings.filter((setting) => rank(setting) < 0);
+        this.#top.replaceChildren(...top.map(({ key }) => this.#rows.get(key).node));
+        this.#rest.replaceChildren(...rest.map(({ key }) => this.#rows.get(key).node));
+        this.#rest.append(element("p", { className: "help", hidden: rest.length > 0 }, "This server offers no others."));
+    }
+
+    /** A slider in motion asks once a screen frame at most; only its newest value counts. */
+    #change(key, value) {
+        if (this.#wanted.size === 0)
+            requestAnimationFrame(() => this.#flush());
+        this.#wanted.set(key, value);
+    }
+
+    #flush() {
+        const wanted = [...this.#wanted];
+        this.#wanted.clear();
+        for (const [key, value] of wanted) {
+            if (this.#send(key, value))
+                ++this.#unanswered;
+            else
+                this.#rows.get(key).show(this.#values.get(key));
+        }
+    }
+
+    #resetEverything() {
+        for (const key of Object.keys(this.changed()))
+            this.#change(key, this.#described.get(key).default);
+    }
+}

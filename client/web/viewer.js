@@ -1,0 +1,198 @@
+// The viewer page: builds its parts and passes between them what the server says and what people do.
+import { attachInput } from "./input.js";
+import { Connection } from "./connection.js";
+import { element } from "./dom.js";
+import { Curtain, notify } from "./notices.js";
+import { Overlay, stateOf } from "./overlay.js";
+import { Panel } from "./panel.js";
+import { PathBar } from "./path_bar.js";
+import { PictureOptions } from "./picture_options.js";
+import { Presenter } from "./presenter.js";
+import { Statistics } from "./statistics.js";
+import { Steering } from "./steering.js";
+
+const CLIENT = "farlight web viewer 1";
+const MICROSECONDS = 1000; // in a millisecond
+
+const at = (id) => document.getElementById(id);
+const statistics = new Statistics();
+const overlay = new Overlay(at("overlay"), statistics);
+let welcomed = null;      // the newest welcome
+let lastFrame = null;
+let status = { phase: "connecting" };
+let sequence = 0;
+const errors = [];        // the server's, newest last
+
+const steering = new Steering((pose, cut) => {
+    if (connection.send("camera", { sequence: sequence + 1, ...wirePose(pose), cut }))
+        statistics.cameraSent(++sequence, performance.now());
+}, () => pathBar.show());
+
+const pathBar = new PathBar({
+    pick: at("path"), controls: at("path-controls"), play: at("path-play"), time: at("path-time"),
+    loop: at("path-loop"), word: at("path-word"),
+}, steering);
+
+const panel = new Panel({ top: at("settings-top"), rest: at("settings-rest"), count: at("settings-count"), resetAll: at("settings-reset") },
+    (key, value) => connection.send("set", { key, value }));
+
+const options = new PictureOptions(at("size"), at("format"), at("stage"), (type, fields) => connection.send(type, fields));
+
+const presenter = new Presenter(at("picture"), {
+    shown: showFrame,
+    overtaken: () => ++statistics.framesOvertaken,
+    undecodable: (header, reason) => {
+        notify(at("notices"), `Frame ${header.frame_id} cannot be shown: ${reason}`);
+        connection.send("ack", { frame_id: header.frame_id });
+    },
+});
+
+const curtain = new Curtain({
+    box: at("curtain"), title: at("curtain-title"), detail: at("curtain-detail"), retry: at("curtain-retry"),
+    light: at("light"), word: at("connection-word"),
+}, { retry: () => connection.retryNow(), reload: () => location.reload() });
+
+const connection = new Connection(socketUrl(), () => ({
+    client: CLIENT, mode: "interactive", format: options.format, settings: panel.changed(),
+}), {
+    status: showStatus,
+    welcome: enter,
+    state: (message) => {
+        panel.update(message.settings);
+        options.state(message);
+    },
+    error: (message) => {
+        errors.push(message);
+        panel.complain(message.field, message.message);
+        notify(at("notices"), message.field ? `${message.field}: ${message.message}` : message.message);
+    },
+    frame: (buffer, arrivedAt) => presenter.accept(buffer, arrivedAt),
+    pong: (milliseconds) => statistics.pong(milliseconds),
+});
+
+function socketUrl() {
+    const url = new URL("ws", location.href);
+    url.protocol = url.protocol === "https:" ? "wss:" : "ws:";
+    url.search = url.hash = "";
+    return url.href;
+}
+
+/** A camera path's keyframe has more fields than a camera. */
+function wirePose({ position, target, up, vertical_fov_degrees }) {
+    return { position, target, up, vertical_fov_degrees };
+}
+
+function showStatus(next) {
+    status = next;
+    if (status.phase !== "open") {
+        presenter.restart();
+        statistics.restart();
+    }
+    at("app").dataset.phase = status.phase;
+    curtain.show(status);
+}
+
+/** A session begins. In the scene of before, the camera stays where people had steered it. */
+function enter(welcome) {
+    const same = welcomed?.scene.file === welcome.scene.file && welcomed.scene.name === welcome.scene.name;
+    welcomed = welcome;
+    const software = welcome.device === "software";
+    document.title = `${welcome.scene.name} – Farlight`;
+    at("scene").textContent = welcome.scene.name;
+    at("device").textContent = `${welcome.gl_renderer} (${software ? "software" : welcome.device})`;
+    at("device").title = software ? "Drawn by the processor: no graphics card takes part" : welcome.device;
+    at("stage").setAttribute("aria-label", `Picture of ${welcome.scene.name}. Arrow keys turn the camera, H lists all keys.`);
+    panel.describe(welcome.settings);
+    options.state(welcome);
+    options.welcome(welcome);
+    pathBar.describe(welcome.camera_paths);
+    describeScene(welcome);
+    steering.enter(welcome.scene, welcome.camera, same && steering.moved);
+}
+
+function describeScene({ scene, effects, server, session, device }) {
+    const rows = [["Scene file", scene.file], ["Triangles", scene.triangles.toLocaleString("en")], ["Lights", scene.lights],
+        ["Device", device], ["Server", server], ["Session", session]];
+    at("about").replaceChildren(
+        element("dl", {}, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, String(value))])),
+        ...[["Effects compiled for this scene", effects], ["What the loader noted", scene.notes]].filter(([, list]) => list.length)
+            .flatMap(([name, list]) => [element("h3", {}, name), element("ul", {}, ...list.map((text) => element("li", {}, text)))]));
+}
+
+function showFrame(frame) {
+    lastFrame = frame;
+    const { header, decodeMs, shownMs, bytes } = frame;
+    connection.send("ack", {
+        frame_id: header.frame_id,
+        decode_us: Math.round(decodeMs * MICROSECONDS), shown_us: Math.round(shownMs * MICROSECONDS),
+    });
+    statistics.frameShown(header, bytes, performance.now());
+    overlay.show(frame);
+    at("app").dataset.state = stateOf(header);
+}
+
+function toggleFullscreen() {
+    if (document.fullscreenElement)
+        document.exitFullscreen();
+    else
+        at("view").requestFullscreen().catch(() => notify(at("notices"), "The browser does not allow full screen here.", "note"));
+}
+
+function togglePanel() {
+    const closed = at("app").classList.toggle("panel-closed");
+    at("tool-panel").setAttribute("aria-expanded", String(!closed));
+}
+
+function toggleHelp() {
+    if (at("help").open)
+        at("help").close();
+    else
+        at("help").showModal();
+}
+
+/** The picture as it stands, as a PNG file. */
+function savePicture() {
+    at("picture").toBlob((blob) => {
+        const link = element("a", { href: URL.createObjectURL(blob), download: `${welcomed?.scene.name ?? "farlight"}.png` });
+        link.click();
+        setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+    });
+}
+
+const commands = {
+    R: () => steering.pose && steering.reset(),
+    O: () => overlay.cycle(),
+    F: toggleFullscreen,
+    P: savePicture,
+    H: toggleHelp,
+    "?": toggleHelp,
+    X: togglePanel,
+};
+attachInput(at("stage"), steering, commands);
+for (const [id, key] of Object.entries({ "tool-reset": "R", "tool-overlay": "O", "tool-fullscreen": "F", "tool-save": "P", "tool-help": "H", "tool-panel": "X" }))
+    at(id).addEventListener("click", commands[key]);
+at("help").addEventListener("keydown", (event) => event.key.toUpperCase() === "H" && at("help").close());
+
+if (matchMedia("(max-width: 700px), (max-height: 500px)").matches)
+    overlay.level = "brief";
+addEventListener("pagehide", () => connection.stop());
+addEventListener("pageshow", (event) => event.persisted && connection.start());
+
+/** What tests may see. */
+Object.defineProperty(window, "farlight", {
+    value: Object.freeze({
+        get connected() { return connection.open; },
+        get status() { return { ...status }; },
+        get framesShown() { return statistics.framesShown; },
+        get framesOvertaken() { return statistics.framesOvertaken; },
+        get lastHeader() { return lastFrame && structuredClone(lastFrame.header); },
+        get passes() { return lastFrame && structuredClone(lastFrame.passes); },
+        get latency() { return statistics.latency(); },
+        get settings() { return panel.values(); },
+        get camera() { return steering.pose && structuredClone(wirePose(steering.pose)); },
+        get cameraSequence() { return sequence; },
+        get errors() { return structuredClone(errors); },
+    }),
+});
+
+connection.start();
