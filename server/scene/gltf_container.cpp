@@ -138,7 +138,7 @@ GltfContainer open_gltf_container(const std::filesystem::path& file)
 
     GltfContainer container;
     container.document = parse_json(chunks.json, place.file);
-    check_schema(container.document, kGltfSchema, place.file);
+    check_schema(container.document, gltf_schema(), place.file);
     const Json buffers = container.document.value("buffers", Json::array());
     for (std::size_t i = 0; i < buffers.size(); ++i)
         container.buffers.push_back(read_buffer(buffers[i], file.parent_path(),

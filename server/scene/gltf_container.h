@@ -9,6 +9,7 @@
 
 namespace farlight {
 
+// NOLINTNEXTLINE(bugprone-exception-escape): moving JSON does not throw, its assertions look so.
 struct GltfContainer {
     nlohmann::json document;  ///< Fits server/scene/gltf.schema.json.
     /// Bytes of /buffers/i, exactly its byteLength; empty for one that is a data URI.

@@ -23,7 +23,8 @@ glm::dmat4 parent_from_node(const tinygltf::Node& node, const ScenePlace& place)
     if (node.matrix.size() == 16) {
         for (int column = 0; column < 4; ++column)
             for (int row = 0; row < 4; ++row)
-                matrix[column][row] = node.matrix[static_cast<std::size_t>(4 * column + row)];
+                matrix[column][row] = node.matrix[4 * static_cast<std::size_t>(column)
+                    + static_cast<std::size_t>(row)];
         if (glm::dvec4(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3])
             != glm::dvec4(0, 0, 0, 1))
             refuse(place / "matrix", "a projective transform", "a last row of 0, 0, 0, 1");

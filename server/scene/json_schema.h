@@ -12,8 +12,10 @@ namespace farlight {
 void check_schema(
     const nlohmann::json& document, std::string_view schema_text, const std::string& file);
 
-/// Embedded at build time.
-extern const std::string_view kFarlightSceneSchema;  // scenes/farlight-scene.schema.json
-extern const std::string_view kGltfSchema;  // server/scene/gltf.schema.json: what we read of it
+/// scenes/farlight-scene.schema.json, embedded at build time.
+std::string_view farlight_scene_schema();
+
+/// server/scene/gltf.schema.json, embedded too: the part of glTF 2.0 that is read.
+std::string_view gltf_schema();
 
 }  // namespace farlight

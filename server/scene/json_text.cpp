@@ -131,7 +131,8 @@ bool DocumentBuilder::parse_error(
     const std::string_view found = what.substr(reason == std::string_view::npos ? 0 : reason,
         wanted == std::string_view::npos ? std::string_view::npos : wanted - reason);
     refuse(place, "broken JSON " + std::string(found),
-        wanted == std::string_view::npos ? "valid JSON" : what.substr(wanted + 11));  // "; expected "
+        wanted == std::string_view::npos ? "valid JSON"
+                                         : what.substr(wanted + 11));  // "; expected "
 }
 
 }  // namespace

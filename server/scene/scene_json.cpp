@@ -259,7 +259,7 @@ std::vector<CameraKeyframe> Reader::read_path(const Json& value, const ScenePlac
 Scene scene_from_json(
     const Json& document, const std::filesystem::path& base_dir, const std::string& name)
 {
-    check_schema(document, kFarlightSceneSchema, name);
+    check_schema(document, farlight_scene_schema(), name);
     return Reader(document, base_dir, name).read();
 }
 

@@ -262,8 +262,7 @@ INSTANTIATE_TEST_SUITE_P(Syntax, BadTextTest,
             "finite number"},
         BadText{"NotANumber", R"({"objects": [{"sphere": {"radius": NaN}}]})",
             "/objects/0/sphere/radius at line 1, column 36: found broken JSON while parsing "
-            "value - invalid literal; last read: '\"radius\": N', expected '[', '{', or a "
-            "literal"},
+            "value - invalid literal; last read: '\"radius\": N', expected valid JSON"},
         BadText{"Unfinished", R"({"version": 1)",
             "/version at line 1, column 13: found broken JSON while parsing object - unexpected "
             "end of input, expected '}'"},
