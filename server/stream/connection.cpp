@@ -127,7 +127,8 @@ void Connection::start(const HttpRequest& request)
         if (error)
             return self->end(kBroken, error.message());
         spdlog::info("{}: connected", self->name_);
-        self->resume_reading();
+        self->open_ = true;
+        self->advance();  // It may have been told to shut down meanwhile.
     });
 }
 
@@ -136,7 +137,7 @@ void Connection::start(const HttpRequest& request)
 void Connection::resume_reading()
 {
     const bool paused = pause_.expiry() > Clock::now();
-    if (!reading_ && !ended_ && !paused && texts_.size() < kMostTexts)
+    if (open_ && !reading_ && !ended_ && !paused && texts_.size() < kMostTexts)
         read();
 }
 
@@ -264,7 +265,7 @@ void Connection::carry_out(const effects::MessageRefused& refused)
 
 void Connection::write_next()
 {
-    if (writing_ || ended_ || closing_since_)
+    if (!open_ || writing_ || ended_ || closing_since_)
         return;
     if (!texts_.empty()) {
         stream_.text(true);

@@ -108,6 +108,7 @@ private:
     std::uint64_t progress_bytes_ = 0;
     Time progress_at_;
     std::uint64_t messages_refused_ = 0;
+    bool open_ = false;  ///< The upgrade is answered.
     bool ended_ = false;
 };
 
