@@ -90,9 +90,9 @@ void check_calls(const JsonInput& input, const Expectation& expectation, const S
         const std::string function(call.function->name);
         if (!call.run.empty() && !script.runs.contains(call.run))
             input.fail("the unknown run '" + call.run + "'", "one of /runs");
-        if (call.frame && *call.frame >= script.frames)
+        if (call.frame && (*call.frame < 0 || *call.frame >= script.frames))
             input.fail("frame " + std::to_string(*call.frame),
-                "at most " + std::to_string(script.frames - 1));
+                "0 to " + std::to_string(script.frames - 1));
         if (!call.function->needs_reference)
             continue;
         if (!script.reference)
