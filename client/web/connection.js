@@ -24,7 +24,7 @@ export function describeClose(code, reason) {
         1011: "The renderer failed", 1013: "The server is full", 4008: "The server stopped waiting for this page",
     };
     const title = known[code] ?? (code === 1006 ? "The server is gone" : `The connection was closed (${code})`);
-    return { title, detail: reason };
+    return { title, detail: reason || (code === 1006 ? "Camera and settings are kept. This page connects again by itself." : "") };
 }
 
 /** What a server that refuses the WebSocket has to say: {gone} or {title, detail, stop}. */

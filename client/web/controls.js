@@ -5,12 +5,15 @@ import { nearestStop, stopsOf } from "./scale.js";
 const MOST_SEGMENTS = 4;  // choices that fit side by side; more become a list
 const MOST_LETTERS = 26;  // in all of them together
 
+/** Choices keep the wire's own words, which are also those of the command line. */
+const words = (choice) => choice.replaceAll("_", " ");
+
 function segments(setting, ids, change) {
     const box = element("div", { className: "segments", role: "radiogroup", "aria-labelledby": ids.label, "aria-describedby": ids.help });
     const inputs = setting.choices.map((choice) => {
         const input = element("input", { type: "radio", name: ids.control, value: choice });
         input.addEventListener("change", () => change(choice));
-        box.append(element("label", {}, input, element("span", {}, title(choice))));
+        box.append(element("label", {}, input, element("span", {}, words(choice))));
         return input;
     });
     return { node: box, show: (value) => inputs.forEach((input) => { input.checked = input.value === value; }) };
@@ -18,7 +21,7 @@ function segments(setting, ids, change) {
 
 function list(setting, ids, change) {
     const select = element("select", { id: ids.control, "aria-describedby": ids.help });
-    select.append(...setting.choices.map((choice) => element("option", { value: choice }, title(choice))));
+    select.append(...setting.choices.map((choice) => element("option", { value: choice }, words(choice))));
     select.addEventListener("change", () => change(select.value));
     return { node: select, show: (value) => { select.value = value; } };
 }

@@ -13,9 +13,9 @@ export function element(tag, properties = {}, ...children) {
     return made;
 }
 
-/** svgf_moments_alpha -> "Svgf moments alpha". */
+/** svgf_moments_alpha -> "SVGF moments alpha": what cannot be spoken is an abbreviation. */
 export function title(key) {
-    const words = key.replaceAll("_", " ");
+    const words = key.replaceAll("_", " ").replace(/\b[^aeiouy\W\d]{2,}\b/g, (word) => word.toUpperCase());
     return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
@@ -28,3 +28,8 @@ export function shortNumber(value) {
 
 /** Always `digits` behind the point, so that a column of numbers does not jump about. */
 export const fixed = (value, digits = 1) => (Number.isFinite(value) ? value.toFixed(digits) : "–");
+
+/** Bytes as kB or MB, powers of ten. */
+export function bytesShort(bytes) {
+    return bytes >= 1e6 ? `${fixed(bytes / 1e6)} MB` : `${fixed(bytes / 1e3)} kB`;
+}

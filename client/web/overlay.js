@@ -1,13 +1,13 @@
 // The statistics over the picture: what moves, how late it is, and where the milliseconds go.
-import { element, fixed, shortNumber } from "./dom.js";
+import { bytesShort, element, fixed } from "./dom.js";
 
 const REFRESH_MS = 250;   // more often, numbers cannot be read
 const FORMAT_NAMES = { jpeg420: "JPEG 4:2:0", jpeg444: "JPEG 4:4:4", png: "PNG", raw: "raw float" };
 const LEVELS = ["full", "brief", "off"];
 const STAGES = ["wait", "trace", "denoise", "encode"];
 
-const ROWS = [
-    ["rate", "Frame rate", "frames shown a second, over the last 3 s"],
+/** [key, name, what it means]: the rows of figures, explained in the page's help. */
+export const FIGURES = [
     ["latency", "Camera to picture", "from sending a camera until its picture is drawn, on this page's clock: median and 95th percentile of the last 60"],
     ["server", "Server", "time from asking for this frame until it was encoded: wait, trace, denoise, encode"],
     ["client", "This page", "decoding the newest frame, and from its arrival until it was drawn"],
@@ -31,8 +31,14 @@ function passRow(name) {
     return { time, fill, row: element("tr", {}, element("th", { scope: "row" }, name), time, track) };
 }
 
+/** A figure to be read from afar, with its unit below. */
+function bigFigure(key, unit) {
+    const [value, below] = [element("b", { "data-stat": key }, "–"), element("span", {}, unit)];
+    return { value, below, node: element("div", {}, value, below) };
+}
+
 export class Overlay {
-    #root; #state; #cells = {}; #bar = {}; #legend = {}; #passes; #graph;
+    #root; #state; #rate; #late; #cells = {}; #bar = {}; #legend = {}; #passes; #graph;
     #passNames = null; #passRows = [];
     #frame = null; #statistics;
     #timer; #drawnAt = -Infinity;
@@ -41,9 +47,11 @@ export class Overlay {
         this.#root = root;
         this.#statistics = statistics;
         this.#state = element("strong", { className: "state" }, "Waiting for a picture");
-        const rows = ROWS.map(([key, name, help]) => {
+        this.#rate = bigFigure("rate", "frames/s");
+        this.#late = bigFigure("late", "ms camera to picture");
+        const rows = FIGURES.map(([key, name]) => {
             this.#cells[key] = element("td", { "data-stat": key }, "–");
-            return element("tr", { title: help, "data-row": key }, element("th", { scope: "row" }, name), this.#cells[key]);
+            return element("tr", { "data-row": key }, element("th", { scope: "row" }, name), this.#cells[key]);
         });
         const bar = element("div", { className: "bar", "aria-hidden": "true" });
         const legend = element("p", { className: "legend" });
@@ -54,7 +62,7 @@ export class Overlay {
         }
         this.#graph = element("canvas", { width: 240, height: 32, role: "img", "aria-label": "Camera-to-picture latency of the last 60 moves" });
         this.#passes = element("tbody");
-        root.append(this.#state, this.#graph, element("table", { className: "figures" }, element("tbody", {}, ...rows)),
+        root.append(this.#state, element("div", { className: "headline" }, this.#rate.node, this.#late.node), this.#graph, element("table", { className: "figures" }, element("tbody", {}, ...rows)),
             element("div", { className: "stages" }, bar, legend),
             element("table", { className: "passes" }, element("caption", {}, "Milliseconds per pass"), this.#passes));
         this.level = "full";
@@ -94,14 +102,16 @@ export class Overlay {
         const done = header.flags.converged;
         this.#state.textContent = stateOf(header);
         this.#state.dataset.state = done ? "final" : header.flags.still ? "refining" : "moving";
+        this.#rate.value.textContent = done ? "–" : fixed(rate.frames);
+        this.#rate.below.textContent = done ? "at rest" : "frames/s";
+        this.#late.value.textContent = fixed(latency.median, 0);
         const figures = {
-            rate: done ? "at rest" : `${fixed(rate.frames)} /s`,
-            latency: latency.count ? `${fixed(latency.median, 0)} ms, p95 ${fixed(latency.p95, 0)} ms` : "move the camera",
+            latency: latency.count ? `median ${fixed(latency.median, 0)} ms, p95 ${fixed(latency.p95, 0)} ms` : "move the camera to see",
             server: `${fixed(total)} ms`,
             client: `decode ${fixed(decodeMs)} ms, shown ${fixed(shownMs)} ms`,
             network: `${fixed(this.#statistics.roundTrip())} ms`,
             picture: `${header.width} × ${header.height} ${FORMAT_NAMES[header.format]}`,
-            traffic: `${fixed(bytes / 1000)} kB a frame` + (done ? "" : `, ${shortNumber(rate.bytes / 1000)} kB/s`),
+            traffic: `${bytesShort(bytes)} a frame` + (done ? "" : `, ${bytesShort(rate.bytes)}/s`),
             samples: `${header.accumulated_samples} a pixel`,
             nonfinite: String(header.nonfinite_count),
         };

@@ -7,7 +7,7 @@ const SMALLEST = 16;         // [px]
 
 /** What a browser can draw, in the words of the wire. */
 const FORMATS = { jpeg420: "JPEG 4:2:0, smallest", jpeg444: "JPEG 4:4:4, full colour", png: "PNG, lossless" };
-const SHARES = { half: ["Half the window", 0.5], window: ["Window", 1] };
+const SHARES = { half: ["Half window", 0.5], window: ["Window", 1] };
 
 export class PictureOptions {
     #size; #format; #stage; #send;
@@ -61,7 +61,7 @@ export class PictureOptions {
     #label() {
         for (const option of this.#suggested ? this.#size.options : []) {
             const [width, height] = this.#wanted(option.value);
-            option.textContent = `${SHARES[option.value]?.[0] ?? "Server's choice"}, ${width} × ${height}`;
+            option.textContent = `${SHARES[option.value]?.[0] ?? "Server"}, ${width} × ${height}`;
         }
     }
 

@@ -3,7 +3,7 @@ import { attachInput } from "./input.js";
 import { Connection } from "./connection.js";
 import { element } from "./dom.js";
 import { Curtain, notify } from "./notices.js";
-import { Overlay, stateOf } from "./overlay.js";
+import { FIGURES, Overlay, stateOf } from "./overlay.js";
 import { Panel } from "./panel.js";
 import { PathBar } from "./path_bar.js";
 import { PictureOptions } from "./picture_options.js";
@@ -173,6 +173,7 @@ for (const [id, key] of Object.entries({ "tool-reset": "R", "tool-overlay": "O",
     at(id).addEventListener("click", commands[key]);
 at("help").addEventListener("keydown", (event) => event.key.toUpperCase() === "H" && at("help").close());
 
+at("help-figures").append(...FIGURES.flatMap(([, name, meaning]) => [element("dt", {}, name), element("dd", {}, meaning)]));
 if (matchMedia("(max-width: 700px), (max-height: 500px)").matches)
     overlay.level = "brief";
 addEventListener("pagehide", () => connection.stop());
