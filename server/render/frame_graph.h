@@ -12,6 +12,7 @@
 #include "server/gl/program_cache.h"
 #include "server/gl/texture.h"
 
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
@@ -37,6 +38,13 @@ struct History {
 struct SceneInputs {
     std::map<std::string, GLuint, std::less<>> buffers;
     Defines defines;
+
+    /// Whether the scene has the effect behind `macro`.
+    bool calls_for(std::string_view macro) const
+    {
+        return std::any_of(
+            defines.begin(), defines.end(), [&](const auto& row) { return row.first == macro; });
+    }
 };
 
 /// A uniform or storage block offered to every pass of the frame, bound where a shader asks for it.

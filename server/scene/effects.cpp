@@ -51,6 +51,11 @@ std::optional<std::string> shading_normals(const Scene& scene)
     });
 }
 
+std::optional<std::string> area_lights(const Scene& scene)
+{
+    return objects_that(scene, "emitters", [&](const Object& object) { return emits(scene, object); });
+}
+
 std::optional<std::string> polygon_lights(const Scene& scene)
 {
     return objects_that(scene, "emissive meshes and quads",
@@ -80,6 +85,7 @@ const std::vector<Effect>& effect_registry()
         {"triangles", "FX_TRIANGLES", triangles},
         {"spheres", "FX_SPHERES", spheres},
         {"shading normals", "FX_SHADING_NORMALS", shading_normals},
+        {"area lights", "FX_LIGHTS", area_lights},
         {"polygon lights", "FX_POLYGON_LIGHTS", polygon_lights},
         {"sphere lights", "FX_SPHERE_LIGHTS", sphere_lights},
         {"background", "FX_BACKGROUND", background},

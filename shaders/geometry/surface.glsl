@@ -5,17 +5,20 @@
 
 struct Surface {
     vec3 position;          // world space [m], on the surface within `offset`
-    float offset;           // rounding error of position along the geometric normal, doubled [m]
+    float offset;           // how far a ray must start off the surface to be free of it [m]
     vec3 geometric_normal;  // unit, towards where the ray came from
     vec3 shading_normal;    // unit, same side
     bool front;             // the ray met the side the geometry's own normal points to
     uint primitive;
 };
 
-// Units in the last place of the coordinates that a hit point and the next intersection test may be off by.
-// A hit point interpolates three vertices (7 roundings, Pharr et al. 2023, section 6.8.5), the next test translates
-// and shears them again (5); 16 covers both.
+// Rounding of a coordinate that a hit point, and the next intersection test from it, may be off by, relative to the
+// largest coordinate of the primitive: a hit point interpolates three vertices (7 roundings, Pharr et al. 2023,
+// section 6.8.5), the next test translates, shears and weighs them again (9). Along the normal alone it would be less
+// where the normal's coordinates are small, but the test's own error is not: it mixes all three axes.
 const float POSITION_ULPS = 16.0 * 5.9604645e-8;
+
+float largest_coordinate(vec3 v) { return max_component(abs(v)); }
 
 #ifdef FX_TRIANGLES
 void triangle_surface(Hit hit, inout Surface s, out vec3 smooth_normal)
@@ -29,7 +32,7 @@ void triangle_surface(Hit hit, inout Surface s, out vec3 smooth_normal)
     s.primitive = texel.w;
     s.position = (1.0 - b.x - b.y) * v0 + b.x * v1 + b.y * v2;
     s.geometric_normal = normalize(cross(v1 - v0, v2 - v0));
-    s.offset = POSITION_ULPS * dot(abs(s.geometric_normal), max(abs(v0), max(abs(v1), abs(v2))));
+    s.offset = POSITION_ULPS * largest_coordinate(max(abs(v0), max(abs(v1), abs(v2))));
     smooth_normal = s.geometric_normal;
 #ifdef FX_SHADING_NORMALS
     const uvec4 normals = texelFetch(primitives, int(s.primitive) * PRIMITIVE_TEXELS + 1);
@@ -48,7 +51,7 @@ void sphere_surface(Hit hit, Ray ray, inout Surface s)
     s.primitive = texelFetch(spheres, at + 1).x;
     s.geometric_normal = normalize(ray.origin + hit.t * ray.direction - sphere.xyz);
     s.position = sphere.xyz + sphere.w * s.geometric_normal;
-    s.offset = POSITION_ULPS * (dot(abs(s.geometric_normal), abs(sphere.xyz)) + sphere.w);
+    s.offset = POSITION_ULPS * (largest_coordinate(sphere.xyz) + sphere.w);
 }
 #endif
 

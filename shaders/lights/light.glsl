@@ -3,8 +3,7 @@
 #include "geometry/scene.glsl"
 #include "lib/sampling.glsl"
 
-#if defined(FX_POLYGON_LIGHTS) || defined(FX_SPHERE_LIGHTS)
-#define FX_LIGHTS
+#ifdef FX_LIGHTS
 uniform usamplerBuffer lights;
 
 struct Light {

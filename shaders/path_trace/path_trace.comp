@@ -27,7 +27,9 @@ uniform writeonly image2D out_indirect;
 uniform int samples_per_pixel;
 uniform int max_depth;       // segments from the camera, >= 1
 uniform int roulette_depth;  // segments after which a path may be ended by chance
+#ifdef FX_LIGHTS
 uniform int light_sampling;  // 0: light is met by chance only
+#endif
 
 struct Vertex {
     vec3 position;

@@ -1,0 +1,218 @@
+// Scenes whose light is known in closed form, against the path tracer.
+//
+// Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
+// which a fresh seed would exceed by chance once in 1.7 million.
+#include "tests/support/gl_test.h"
+#include "tests/support/statistics.h"
+
+namespace farlight {
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+
+/// The accumulated mean of `frames` frames of `settings`.
+Image accumulate(const TestScene& scene, RenderRequest request, int frames)
+{
+    request.settings.denoiser = Denoiser::kAccumulate;
+    View view(scene.shared);
+    RenderedFrame frame;
+    for (int i = 0; i < frames; ++i)
+        frame = view.render(request);
+    EXPECT_EQ(frame.nonfinite_count, 0U);
+    return std::move(frame.image);
+}
+
+Scene furnace(float albedo)
+{
+    Scene scene = load_scene(std::string(FARLIGHT_SOURCE_DIR) + "/scenes/furnace.json");
+    for (Material& material : scene.materials) {
+        material.albedo = glm::vec3(albedo);
+        material.emission = glm::vec3(1);
+    }
+    return scene;
+}
+
+// Inside a closed box that emits radiance 1 and reflects a fraction rho, a path of at most n
+// segments sees
+//     L = 1 + rho + rho^2 + ... + rho^(n-1) = (1 - rho^n) / (1 - rho).
+struct FurnaceCase {
+    const char* name;
+    float albedo;
+    int max_depth;
+};
+
+class FurnaceTest : public GlTest, public testing::WithParamInterface<FurnaceCase> {
+protected:
+    static double expected()
+    {
+        const auto& [name, albedo, max_depth] = GetParam();
+        return (1 - std::pow(albedo, max_depth)) / (1 - albedo);
+    }
+    static RenderSettings settings()
+    {
+        RenderSettings s;
+        s.max_depth = GetParam().max_depth;
+        s.roulette_depth = 64;
+        s.denoiser = Denoiser::kNone;
+        return s;
+    }
+};
+
+/// Every BSDF sample meets the same radiance: no variance at all, so every pixel is exact.
+TEST_P(FurnaceTest, WithoutLightSamplingEveryPixelIsExact)
+{
+    const TestScene scene(furnace(GetParam().albedo));
+    RenderSettings s = settings();
+    s.light_sampling = false;
+    View view(scene.shared);
+    const RenderedFrame frame = view.render(linear_request(scene.scene, {32, 24}, s));
+    EXPECT_EQ(frame.nonfinite_count, 0U);
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 32; ++x)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(pixel(frame.image, x, y)[c], expected(), 1e-5) << x << "," << y;
+}
+
+TEST_P(FurnaceTest, WithLightSamplingTheMeanIsExpected)
+{
+    const TestScene scene(furnace(GetParam().albedo));
+    RenderSettings s = settings();
+    s.samples_per_pixel = 64;
+    const Estimate estimate =
+        mean_of(accumulate(scene, linear_request(scene.scene, {64, 48}, s), 4));
+    EXPECT_NEAR(estimate.mean, expected(), 5 * estimate.standard_error + 1e-5);
+    EXPECT_LT(estimate.standard_error, 0.01 * expected());
+}
+
+/// Ending paths by chance changes nothing in the mean.
+TEST_P(FurnaceTest, RussianRouletteIsUnbiased)
+{
+    const TestScene scene(furnace(GetParam().albedo));
+    RenderSettings s = settings();
+    s.light_sampling = false;
+    s.roulette_depth = 2;
+    s.samples_per_pixel = 64;
+    const Estimate estimate =
+        mean_of(accumulate(scene, linear_request(scene.scene, {64, 48}, s), 4));
+    EXPECT_NEAR(estimate.mean, expected(), 5 * estimate.standard_error + 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(AnalyticScenes, FurnaceTest,
+    testing::Values(FurnaceCase{"EmitterOnly", 0.5F, 1}, FurnaceCase{"OneBounce", 0.5F, 2},
+        FurnaceCase{"ThreeBounces", 0.5F, 4}, FurnaceCase{"Deep", 0.8F, 9}),
+    [](const auto& test) { return test.param.name; });
+
+// A small white plane at the origin facing +y, under one light, seen from the side at one point.
+// Its radiance is albedo / pi * E, with E in closed form.
+struct IrradianceCase {
+    const char* name;
+    double expected;  ///< E [W/m^2] for a light of radiance 1.
+    Object light;
+    int samples;
+};
+
+Quad unit_quad_above(double height, const glm::dvec3& offset)
+{
+    return {glm::dvec3(-0.5, height, -0.5) + offset, {1, 0, 0},
+        {0, 0, 1}};  // faces down: x cross z = -y
+}
+
+Sphere sphere_at_angle(double distance, double radius, double angle)
+{
+    return {distance * glm::dvec3(std::sin(angle), std::cos(angle), 0), radius};
+}
+
+class IrradianceTest : public GlTest, public testing::WithParamInterface<IrradianceCase> {
+protected:
+    /// The camera sees only a piece of the plane so small that E is the same all over it.
+    static Scene scene()
+    {
+        Scene scene;
+        scene.materials.push_back({"plane", glm::vec3(0.5F)});
+        scene.materials.push_back({"light", glm::vec3(0), glm::vec3(1)});
+        scene.objects.push_back({"plane", 0, Quad{{-1e-3, 0, -1e-3}, {0, 0, 2e-3}, {2e-3, 0, 0}}});
+        scene.objects.push_back(GetParam().light);
+        scene.objects.back().material = 1;
+        scene.camera.position = {0.02, 0.02, -0.02};
+        scene.camera.target = {0, 0, 0};
+        scene.camera.vertical_fov_degrees = 0.5;
+        return scene;
+    }
+    static Estimate radiance(bool light_sampling)
+    {
+        const TestScene on_device(scene());
+        RenderSettings s;
+        s.max_depth = 2;
+        s.light_sampling = light_sampling;
+        s.samples_per_pixel = GetParam().samples;
+        return mean_of(accumulate(on_device, linear_request(on_device.scene, {32, 32}, s), 8));
+    }
+};
+
+TEST_P(IrradianceTest, LightAndBsdfSamplingGiveTheClosedForm)
+{
+    const double expected = 0.5 / kPi * GetParam().expected;
+    for (const bool light_sampling : {true, false}) {
+        const Estimate estimate = radiance(light_sampling);
+        // 2e-4: E changes by about that much over the piece of plane that is seen.
+        EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 2e-4 * expected)
+            << (light_sampling ? "with" : "without") << " light sampling";
+    }
+}
+
+// Quads: Lambert 1760, E = 1/2 |sum theta_i (n . Gamma_i)|. Spheres: pi (r/d)^2 cos(theta) clear of
+// the horizon; cut by it: Snyder's closed form, recomputed by quadrature.
+INSTANTIATE_TEST_SUITE_P(AnalyticScenes, IrradianceTest,
+    testing::Values(IrradianceCase{"QuadAboveItsMiddle", 0.75227469,
+                        {"light", 0, unit_quad_above(1, {0, 0, 0})}, 64},
+        IrradianceCase{
+            "QuadAboveItsCorner", 0.43520988, {"light", 0, unit_quad_above(1, {0.5, 0, 0.5})}, 64},
+        IrradianceCase{"SphereOverhead", 0.785398, {"light", 0, sphere_at_angle(2, 1, 0)}, 64},
+        IrradianceCase{"SphereAside", 0.162054, {"light", 0, sphere_at_angle(2, 0.5, 0.6)}, 64},
+        IrradianceCase{
+            "SphereCutByTheHorizon", 0.289484, {"light", 0, sphere_at_angle(2, 1, 1.2)}, 64},
+        IrradianceCase{
+            "SphereMostlyBelow", 0.008259, {"light", 0, sphere_at_angle(3, 1, 1.7)}, 256},
+        IrradianceCase{"SphereVeryNear", 1.257843, {"light", 0, sphere_at_angle(1.2, 1, 1.0)}, 64}),
+    [](const auto& test) { return test.param.name; });
+
+/// A white sphere that reflects everything under a uniform sky of 1 disappears: every path
+/// returns 1.
+TEST_F(GlTest, WhiteSphereUnderAWhiteSkyDisappears)
+{
+    Scene scene;
+    scene.materials.push_back({"white", glm::vec3(1)});
+    scene.objects.push_back({"ball", 0, Sphere{{0, 0, 0}, 1}});
+    scene.background = glm::vec3(1);
+    scene.camera.position = {0, 0, 3};
+    scene.camera.target = {0, 0, 0};
+    const TestScene on_device(scene);
+    View view(on_device.shared);
+    RenderSettings s;
+    s.denoiser = Denoiser::kNone;
+    const RenderedFrame frame = view.render(linear_request(on_device.scene, {64, 64}, s));
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x)
+            ASSERT_NEAR(pixel(frame.image, x, y).x, 1, 1e-5) << x << "," << y;
+}
+
+/// An emitter shows its radiance to its front only, unless it emits on both sides.
+TEST_F(GlTest, QuadEmitsOnTheSideItsNormalPointsTo)
+{
+    for (const bool both : {false, true})
+        for (const bool front : {false, true}) {
+            Scene scene;
+            scene.materials.push_back({"light", glm::vec3(0), glm::vec3(3, 2, 1), both});
+            scene.objects.push_back(
+                {"light", 0, Quad{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}});  // normal +z
+            scene.camera.position = {0, 0, front ? 2 : -2};
+            scene.camera.target = {0, 0, 0};
+            const TestScene on_device(scene);
+            View view(on_device.shared);
+            const RenderedFrame frame = view.render(linear_request(on_device.scene, {8, 8}, {}));
+            EXPECT_EQ(pixel(frame.image, 4, 4), front || both ? glm::vec3(3, 2, 1) : glm::vec3(0));
+        }
+}
+
+}  // namespace
+}  // namespace farlight

@@ -1,0 +1,268 @@
+// SVGF over time: history length, constancy, quality, determinism, feedback.
+#include "tests/support/gl_test.h"
+#include "tests/support/meshes.h"
+#include "tests/support/statistics.h"
+
+#include <glm/gtc/constants.hpp>
+
+namespace farlight {
+namespace {
+
+constexpr Extent kExtent{64, 48};
+
+RenderRequest request_view(const Scene& scene, DebugView which)
+{
+    RenderSettings settings;
+    settings.view = which;
+    return linear_request(scene, kExtent, settings);
+}
+
+class SvgfTest : public GlTest { };
+
+/// Row 0 and column 0 are pixels like any other.
+TEST_F(SvgfTest, HistoryLengthCountsFramesEverywhereUnderAStillCamera)
+{
+    const TestScene scene(room_with(bumpy_sphere(24, 12)));
+    View view(scene.shared);
+    RenderRequest request = request_view(scene.scene, DebugView::kHistoryLength);
+    request.settings.history_max = 6;
+    for (int frame = 1; frame <= 9; ++frame) {
+        const Image length = view.render(request).image;
+        for (int y = 0; y < kExtent.height; ++y)
+            for (int x = 0; x < kExtent.width; ++x)
+                ASSERT_EQ(pixel(length, x, y).x, std::min(frame, 6))
+                    << x << "," << y << " frame " << frame;
+    }
+}
+
+/// A wall ten units behind a ball: stepping aside uncovers a crescent, which starts anew; the rest
+/// goes on.
+TEST_F(SvgfTest, NewlyRevealedPixelsStartWithOneFrame)
+{
+    Scene scene;
+    scene.materials.push_back({"white"});
+    scene.materials.push_back({"grey", glm::vec3(0.4F)});
+    scene.objects.push_back({"wall", 0, Quad{{-50, -50, -10}, {100, 0, 0}, {0, 100, 0}}});
+    scene.objects.push_back({"ball", 1, Sphere{{0, 0, 0}, 1}});
+    scene.background = glm::vec3(1);
+    scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 45};
+    const TestScene on_device(scene);
+    View view(on_device.shared);
+    RenderRequest request = request_view(scene, DebugView::kHistoryLength);
+    for (int i = 0; i < 8; ++i)
+        view.render(request);
+    View before(on_device.shared);
+    const Image old_ids = before.render(request_view(scene, DebugView::kObjectId)).image;
+
+    const double step = 0.5;
+    request.camera.position.x += step;
+    request.camera.target.x += step;
+    const Image length = view.render(request).image;
+    RenderRequest id_request = request_view(scene, DebugView::kObjectId);
+    id_request.camera = request.camera;
+    View after(on_device.shared);
+    const Image ids = after.render(id_request).image;
+    RenderRequest position_request = request_view(scene, DebugView::kPosition);
+    position_request.camera = request.camera;
+    const Image positions = View(on_device.shared).render(position_request).image;
+
+    int revealed = 0;
+    int kept = 0;
+    const double pixels_per_unit = kExtent.height / 2.0 / std::tan(glm::radians(22.5));
+    for (int y = 0; y < kExtent.height; ++y)
+        for (int x = 0; x < kExtent.width; ++x) {
+            // Where the surface was, from its position alone; two pixels from any edge of ball or
+            // frame.
+            const glm::vec3 p = pixel(positions, x, y);
+            const double depth = 4 - p.z;
+            const int old_x =
+                static_cast<int>(std::floor(x + step / depth * pixels_per_unit + 0.5));
+            bool same = true;
+            bool other = true;
+            bool outside = true;
+            for (int dy = -2; dy <= 2; ++dy)
+                for (int dx = -2; dx <= 2; ++dx) {
+                    const bool in = old_x + dx >= 0 && old_x + dx < kExtent.width && y + dy >= 0
+                        && y + dy < kExtent.height;
+                    outside = outside && old_x + dx >= kExtent.width;
+                    const float id = in ? pixel(old_ids, old_x + dx, y + dy).x : -1;
+                    same = same && id == pixel(ids, x, y).x;
+                    other = other && in && id != pixel(ids, x, y).x;
+                }
+            if (other || outside) {
+                ++revealed;
+                ASSERT_EQ(pixel(length, x, y).x, 1) << x << "," << y;
+            } else if (same) {
+                ++kept;
+                ASSERT_EQ(pixel(length, x, y).x, 9) << x << "," << y;
+            }
+        }
+    EXPECT_GT(revealed, 20);
+    EXPECT_GT(kept, kExtent.width * kExtent.height / 2);
+}
+
+/// A cut forgets everything: lengths start at one, random numbers start over.
+TEST_F(SvgfTest, CutRestartsHistoryAndRandomNumbers)
+{
+    const TestScene scene(room_with(bumpy_sphere(24, 12)));
+    View view(scene.shared);
+    RenderRequest request = linear_request(scene.scene, kExtent, {});
+    const RenderedFrame first = view.render(request);
+    EXPECT_TRUE(first.history_reset);
+    EXPECT_FALSE(view.render(request).history_reset);
+    request.reset_history = true;
+    const RenderedFrame again = view.render(request);
+    EXPECT_TRUE(again.history_reset);
+    EXPECT_EQ(again.image.bytes, first.image.bytes);
+}
+
+TEST_F(SvgfTest, SameSeedSameBytesAndAnotherSeedOthers)
+{
+    const TestScene scene(room_with(bumpy_sphere(24, 12)));
+    const auto run = [&](std::uint32_t seed) {
+        View view(scene.shared);
+        RenderRequest request = linear_request(scene.scene, kExtent, {});
+        request.settings.seed = seed;
+        for (int i = 0; i < 3; ++i) {
+            request.camera.position.x += 0.01;
+            view.render(request);
+        }
+        return view.render(request).image.bytes;
+    };
+    const auto bytes = run(1);
+    EXPECT_EQ(bytes, run(1));
+    EXPECT_NE(bytes, run(2));
+}
+
+/// In a furnace without light sampling every sample is the same, so the filter sees a constant
+/// picture of curved and flat surfaces; nothing in it may change that.
+TEST_F(SvgfTest, ConstantPictureStaysConstant)
+{
+    Scene scene = shipped_scene("furnace.json");
+    scene.meshes.push_back(bumpy_sphere(24, 12));
+    scene.objects.push_back({"bumps", 0,
+        MeshInstance{static_cast<std::uint32_t>(scene.meshes.size() - 1), glm::dmat4(0.2)}});
+    std::get<MeshInstance>(scene.objects.back().shape).world_from_object[3] =
+        glm::dvec4(scene.camera.target, 1);
+    for (Material& material : scene.materials) {
+        material.albedo = glm::vec3(0.5F);
+        material.emission = glm::vec3(1);
+        material.emits_both_sides = true;
+    }
+    const TestScene on_device(scene);
+    View view(on_device.shared);
+    RenderRequest request = linear_request(scene, kExtent, {});
+    request.settings.light_sampling = false;
+    request.settings.roulette_depth = 64;
+    const glm::dvec3 drift = 0.02 * (scene.camera.target - scene.camera.position);
+    for (int frame = 0; frame < 12; ++frame) {
+        const RenderedFrame drawn = view.render(request);
+        ASSERT_EQ(drawn.nonfinite_count, 0U);
+        for (int y = 0; y < kExtent.height; ++y)
+            for (int x = 0; x < kExtent.width; ++x)
+                for (int c = 0; c < 3; ++c)
+                    ASSERT_NEAR(pixel(drawn.image, x, y)[c], 1.875, 1.875e-5)
+                        << x << "," << y << " frame " << frame;
+        request.camera.position += drift;  // 1 + 1/2 + 1/4 + 1/8 for four segments
+    }
+}
+
+/// Albedo, zero included, divides out and multiplies back exactly: with the filter off, svgf equals
+/// none.
+TEST_F(SvgfTest, RemodulationIsTheInverseOfDemodulation)
+{
+    Scene scene = room_with(bumpy_sphere(24, 12));
+    scene.materials[0].albedo = {0, 0.37F, 1};
+    const TestScene on_device(scene);
+    const auto render = [&](Denoiser denoiser) {
+        View view(on_device.shared);
+        RenderRequest request = linear_request(scene, kExtent, {});
+        request.settings.denoiser = denoiser;
+        request.settings.atrous_iterations = 0;
+        return view.render(request).image.bytes;
+    };
+    EXPECT_EQ(render(Denoiser::kSvgf), render(Denoiser::kNone));
+}
+
+TEST_F(SvgfTest, EmittersAndSkyBypassTheFilter)
+{
+    Scene scene;
+    scene.materials.push_back({"white"});
+    scene.materials.push_back({"light", glm::vec3(0), glm::vec3(7, 5, 3), true});
+    scene.objects.push_back({"floor", 0, Quad{{-9, -1, -9}, {0, 0, 18}, {18, 0, 0}}});
+    scene.objects.push_back({"light", 1, Sphere{{0, 0, 0}, 0.7}});
+    scene.background = {0.1F, 0.2F, 0.3F};
+    scene.camera = {{0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 45};
+    const TestScene on_device(scene);
+    View view(on_device.shared);
+    RenderRequest request = linear_request(scene, kExtent, {});
+    RenderedFrame frame;
+    for (int i = 0; i < 5; ++i)
+        frame = view.render(request);
+    View ids_view(on_device.shared);
+    const Image ids = ids_view.render(request_view(scene, DebugView::kEmission)).image;
+    int lights = 0;
+    int sky = 0;
+    for (int y = 0; y < kExtent.height; ++y)
+        for (int x = 0; x < kExtent.width; ++x) {
+            const glm::vec3 emission = pixel(ids, x, y);
+            if (emission == glm::vec3(0))
+                continue;
+            (emission.x > 1 ? lights : sky) += 1;
+            ASSERT_EQ(pixel(frame.image, x, y), emission) << x << "," << y;
+        }
+    EXPECT_GT(lights, 20);
+    EXPECT_GT(sky, 100);
+}
+
+/// The headline figures on the Cornell box, small enough for every run: 32 still frames, and an
+/// orbit.
+TEST_F(SvgfTest, BeatsRawSamplesTenfoldAtRestAndFivefoldInMotion)
+{
+    const TestScene scene(shipped_scene("cornell_box.json"));
+    constexpr Extent kSmall{96, 96};
+    const glm::dvec3 middle = scene_bounds(scene.scene).center();
+    const auto camera_at = [&](double degrees) {
+        const double a = glm::radians(degrees);
+        const auto turn = [&](const glm::dvec3& p) {
+            const glm::dvec3 v = p - middle;
+            return middle
+                + glm::dvec3(v.x * std::cos(a) + v.z * std::sin(a), v.y,
+                    v.z * std::cos(a) - v.x * std::sin(a));
+        };
+        CameraPose pose = scene.scene.camera;
+        pose.position = turn(pose.position);
+        pose.target = turn(pose.target);
+        return pose;
+    };
+    RenderRequest request = linear_request(scene.scene, kSmall, {});
+    request.settings.denoiser = Denoiser::kAccumulate;
+    request.settings.samples_per_pixel = 256;
+    request.settings.seed = 999;
+    View reference_view(scene.shared);
+    Image reference;
+    for (int i = 0; i < 4; ++i)
+        reference = reference_view.render(request).image;
+
+    request.settings = {};
+    for (const double degrees_a_frame : {0.0, 2.0}) {
+        double error[2];
+        for (const Denoiser denoiser : {Denoiser::kNone, Denoiser::kSvgf}) {
+            request.settings.denoiser = denoiser;
+            View view(scene.shared);
+            Image image;
+            for (int i = 31; i >= 0; --i) {
+                request.camera = camera_at(-degrees_a_frame * i);
+                image = view.render(request).image;
+            }
+            error[denoiser == Denoiser::kSvgf] = relative_mse(image, reference);
+        }
+        EXPECT_LE(error[1], (degrees_a_frame > 0 ? 0.2 : 0.1) * error[0])
+            << degrees_a_frame << " degrees a frame";
+        RecordProperty("relmse_ratio_at_" + std::to_string(static_cast<int>(degrees_a_frame)),
+            std::to_string(error[1] / error[0]));
+    }
+}
+
+}  // namespace
+}  // namespace farlight

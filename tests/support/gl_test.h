@@ -1,0 +1,42 @@
+// GlTest: one software context a process, and a way to render a scene without a server.
+#pragma once
+
+#include "server/gl/context.h"
+#include "server/render/view.h"
+#include "server/scene/scene_file.h"
+
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace farlight {
+
+/// A scene on the device, ready for views.
+class TestScene {
+public:
+    explicit TestScene(Scene s);
+
+    Scene scene;
+
+private:
+    ProgramCache programs_;
+    GpuScene gpu_scene_;
+
+public:
+    SharedScene shared;  ///< Refers to the members above.
+};
+
+class GlTest : public testing::Test {
+protected:
+    static void SetUpTestSuite();
+
+    /// A file of scenes/.
+    static Scene shipped_scene(const std::string& name);
+};
+
+/// The pixel (x, y) of a linear image.
+glm::vec3 pixel(const Image& image, int x, int y);
+
+/// A request for the scene's own camera with raw linear output.
+RenderRequest linear_request(const Scene& scene, Extent extent, const RenderSettings& settings);
+
+}  // namespace farlight

@@ -1,0 +1,22 @@
+// Means, errors and picture metrics for tests.
+#pragma once
+
+#include "server/render/image.h"
+
+#include <glm/glm.hpp>
+
+namespace farlight {
+
+struct Estimate {
+    double mean = 0;
+    double standard_error = 0;
+};
+
+/// Mean over all pixels and channels of a linear image, and its standard error taking pixels as
+/// independent.
+Estimate mean_of(const Image& image);
+
+/// Mean over pixels and channels of (x - r)^2 / (r^2 + 0.01).
+double relative_mse(const Image& image, const Image& reference);
+
+}  // namespace farlight
