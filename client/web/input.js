@@ -31,8 +31,6 @@ function attachPointers(stage, steering) {
     };
     stage.addEventListener("pointerdown", (event) => {
         stage.setPointerCapture(event.pointerId);
-        stage.focus({ preventScroll: true });
-        event.preventDefault();
         panning = event.button === 1 || event.button === 2 || event.shiftKey;
         pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
         regrip();
@@ -57,6 +55,7 @@ function attachPointers(stage, steering) {
     };
     stage.addEventListener("pointerup", lift);
     stage.addEventListener("pointercancel", lift);
+    stage.addEventListener("mousedown", (event) => event.button === 1 && event.preventDefault()); // no autoscroll
     stage.addEventListener("contextmenu", (event) => event.preventDefault());
     stage.addEventListener("wheel", (event) => {
         event.preventDefault();

@@ -3,6 +3,7 @@ import { bytesShort, element, fixed } from "./dom.js";
 
 const REFRESH_MS = 250;   // more often, numbers cannot be read
 const FORMAT_NAMES = { jpeg420: "JPEG 4:2:0", jpeg444: "JPEG 4:4:4", png: "PNG", raw: "raw float" };
+const MOST_PASSES = 16;   // rows of the table; beyond, the shortest passes share one
 const LEVELS = ["full", "brief", "off"];
 const STAGES = ["wait", "trace", "denoise", "encode"];
 
@@ -10,12 +11,13 @@ const STAGES = ["wait", "trace", "denoise", "encode"];
 export const FIGURES = [
     ["latency", "Camera to picture", "from sending a camera until its picture is drawn, on this page's clock: median and 95th percentile of the last 60"],
     ["server", "Server", "time from asking for this frame until it was encoded: wait, trace, denoise, encode"],
-    ["client", "This page", "decoding the newest frame, and from its arrival until it was drawn"],
-    ["network", "Round trip", "a ping to the server and back, median of the last minutes"],
+    ["decode", "Decoding", "time this page took to decode the newest frame"],
+    ["shown", "Arrival to screen", "from the newest frame's arrival until it was drawn, decoding included"],
+    ["network", "Round trip", "a ping to the server and back, median of the last two minutes"],
     ["picture", "Picture", "size and format of the newest frame"],
     ["traffic", "Traffic", "size of the newest frame, and bytes received a second"],
     ["samples", "Samples", "paths a pixel in this picture since camera or settings last changed"],
-    ["nonfinite", "Non-finite values", "NaN and infinite values met while drawing; 0 in a healthy picture"],
+    ["nonfinite", "Non-finite", "NaN and infinite values met while drawing; 0 in a healthy picture"],
 ];
 
 /** The words for what a frame's flags say. */
@@ -29,6 +31,15 @@ function passRow(name) {
     const [time, fill] = [element("td"), element("span", { className: "fill" })];
     const track = element("td", { className: "track", "aria-hidden": "true" }, fill);
     return { time, fill, row: element("tr", {}, element("th", { scope: "row" }, name), time, track) };
+}
+
+/** At most MOST_PASSES rows in the order of execution; the shortest passes are summed up in the last. */
+export function passRows(passes) {
+    if (passes.length <= MOST_PASSES)
+        return passes;
+    const kept = new Set([...passes].sort((a, b) => b.ms - a.ms).slice(0, MOST_PASSES - 1));
+    const rest = passes.filter((pass) => !kept.has(pass));
+    return [...passes.filter((pass) => kept.has(pass)), { name: `${rest.length} others`, ms: rest.reduce((sum, { ms }) => sum + ms, 0) }];
 }
 
 /** A figure to be read from afar, with its unit below. */
@@ -106,12 +117,13 @@ export class Overlay {
         this.#rate.below.textContent = done ? "at rest" : "frames/s";
         this.#late.value.textContent = fixed(latency.median, 0);
         const figures = {
-            latency: latency.count ? `median ${fixed(latency.median, 0)} ms, p95 ${fixed(latency.p95, 0)} ms` : "move the camera to see",
+            latency: latency.count ? `${fixed(latency.median, 0)} ms, p95 ${fixed(latency.p95, 0)} ms` : "move the camera",
             server: `${fixed(total)} ms`,
-            client: `decode ${fixed(decodeMs)} ms, shown ${fixed(shownMs)} ms`,
+            decode: `${fixed(decodeMs)} ms`,
+            shown: `${fixed(shownMs)} ms`,
             network: `${fixed(this.#statistics.roundTrip())} ms`,
             picture: `${header.width} × ${header.height} ${FORMAT_NAMES[header.format]}`,
-            traffic: `${bytesShort(bytes)} a frame` + (done ? "" : `, ${bytesShort(rate.bytes)}/s`),
+            traffic: bytesShort(bytes) + (done ? "" : `, ${bytesShort(rate.bytes)}/s`),
             samples: `${header.accumulated_samples} a pixel`,
             nonfinite: String(header.nonfinite_count),
         };
@@ -122,7 +134,7 @@ export class Overlay {
             this.#bar[stage].style.flexGrow = times[i];
             this.#legend[stage].textContent = fixed(times[i]);
         });
-        this.#drawPasses(passes);
+        this.#drawPasses(passRows(passes));
         this.#drawGraph();
     }
 

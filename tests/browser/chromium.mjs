@@ -51,23 +51,20 @@ export async function untilFrames(page, more = 1) {
     await until(page, (frames) => window.farlight?.framesShown >= frames, before + more);
 }
 
-/** Mean red, green and blue of the picture [0, 255], over all of it or the part {x, y, width, height} in shares of it. */
-export const meanColour = (page, part = { x: 0, y: 0, width: 1, height: 1 }) => page.evaluate(({ x, y, width, height }) => {
-    const canvas = document.getElementById("picture");
-    const [w, h] = [canvas.width, canvas.height];
-    const { data } = canvas.getContext("2d").getImageData(x * w, y * h, Math.max(1, width * w), Math.max(1, height * h));
-    const sum = [0, 0, 0];
-    for (let i = 0; i < data.length; ++i)
-        if (i % 4 < 3)
-            sum[i % 4] += data[i];
-    return sum.map((total) => total / (data.length / 4));
+/** Bytes (RGBA) of the picture, or of the part {x, y, width, height} in shares of it; from a copy, so that the page's canvas is left alone. */
+export const pixels = (page, part = { x: 0, y: 0, width: 1, height: 1 }) => page.evaluate(({ x, y, width, height }) => {
+    const picture = document.getElementById("picture");
+    const [w, h] = [picture.width, picture.height];
+    const copy = new OffscreenCanvas(w, h).getContext("2d", { willReadFrequently: true });
+    copy.drawImage(picture, 0, 0);
+    return Array.from(copy.getImageData(x * w, y * h, Math.max(1, width * w), Math.max(1, height * h)).data);
 }, part);
 
-/** Every pixel's bytes, to compare pictures. */
-export const pixels = (page) => page.evaluate(() => {
-    const canvas = document.getElementById("picture");
-    return Array.from(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data);
-});
+/** Mean red, green and blue of the picture or a part of it [0, 255]. */
+export async function meanColour(page, part) {
+    const bytes = await pixels(page, part);
+    return [0, 1, 2].map((channel) => bytes.reduce((sum, value, i) => (i % 4 === channel ? sum + value : sum), 0) / (bytes.length / 4));
+}
 
 /** Mean absolute difference of two pictures of one size [0, 255]. */
 export function difference(a, b) {
