@@ -153,30 +153,28 @@ test("a JPEG is shown too", async () => {
 });
 
 test("acknowledges only what was drawn: without screen frames the stream stops by itself", async () => {
-    const other = await browser.context.newPage();
-    await other.addInitScript(() => {
+    await page.addInitScript(() => {
         window.held = [];
         window.holding = true;
         const real = window.requestAnimationFrame.bind(window);
         window.requestAnimationFrame = (run) => (window.holding ? window.held.push(run) : real(run));
     });
-    const quiet = await new FakeServer().start();
-    await other.goto(quiet.url);
-    await other.waitForFunction(() => window.held.length > 0);
-    await other.waitForTimeout(500); // many times the fake server's 20 ms a frame
-    assert.equal(quiet.received.filter(({ type }) => type === "ack").length, 0);
-    assert.equal([...quiet.sessions][0].frame, 2);
-    await other.evaluate(() => {
+    await page.reload();
+    server.received.length = 0;
+    const polling = { polling: 50 }; // [ms]; the usual way to wait would ask for screen frames
+    await page.waitForFunction(() => window.held.length > 0, null, polling);
+    await page.waitForTimeout(500); // many times the fake server's 20 ms a frame
+    assert.equal(received("ack").length, 0);
+    assert.equal([...server.sessions].at(-1).frame, 2);
+    await page.evaluate(() => {
         window.holding = false;
         window.held.splice(0).forEach((run) => run(performance.now()));
     });
-    await other.waitForFunction(() => window.farlight.framesShown > 3);
-    const ack = quiet.received.find(({ type }) => type === "ack");
+    await page.waitForFunction(() => window.farlight.framesShown > 3, null, polling);
+    const [ack] = received("ack");
     assert.equal(ack.frame_id, 2);
     assert.ok(Number.isInteger(ack.decode_us) && ack.shown_us >= ack.decode_us, JSON.stringify(ack));
-    assert.equal(await other.evaluate(() => window.farlight.framesOvertaken), 1);
-    await other.close();
-    await quiet.kill();
+    assert.equal(await page.evaluate(() => window.farlight.framesOvertaken), 1);
 });
 
 test("settings are those of the server's list, and changes come back from it", async () => {
@@ -270,14 +268,14 @@ test("a killed server is told clearly; when it is back, so are picture, settings
 });
 
 test("a server of another version: the page says so and stops", async () => {
-    const other = await new FakeServer({ subprotocols: ["farlight.v9"] }).start();
-    await page.goto(other.url);
+    await server.kill();
+    server = await new FakeServer({ subprotocols: ["farlight.v9"] }).start();
+    await page.goto(server.url);
     await until(page, () => window.farlight.status.phase === "stopped");
     assert.match(await text("#curtain-title"), /do not match/);
     assert.match(await text("#curtain-detail"), /farlight\.v1.*farlight\.v9/);
     assert.equal(await text("#curtain-retry"), "Reload the page");
     await screenshot(page, "fake_version");
-    await other.kill();
 });
 
 test("a goodbye and a refusal are told in the server's words", async () => {
