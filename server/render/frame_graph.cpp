@@ -242,7 +242,7 @@ void FrameGraph::check(const Pass& pass, const Program& program) const
     for (const auto& [name, variable] : program.uniforms()) {
         const bool texture = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const auto& use) {
             return use.name == name
-                && use.write == (kind_of(variable.type) == VariableKind::kImage);
+                && (!use.write || kind_of(variable.type) == VariableKind::kImage);
         });
         const bool constant =
             std::any_of(pass.constants.begin(), pass.constants.end(), [&](const auto& row) {
@@ -288,8 +288,9 @@ void FrameGraph::bind_textures(const Pass& pass, const Program& program)
             continue;
         const Texture& texture = *resources_[static_cast<std::size_t>(use.texture.index)].texture;
         const auto unit = static_cast<GLuint>(variable->second.unit);
-        if (use.write)
-            glBindImageTexture(unit, texture.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, texture.format());
+        if (kind_of(variable->second.type) == VariableKind::kImage)
+            glBindImageTexture(unit, texture.id(), 0, GL_FALSE, 0,
+                use.write ? GL_WRITE_ONLY : GL_READ_ONLY, texture.format());
         else
             glBindTextureUnit(unit, texture.id());
     }

@@ -25,9 +25,10 @@ float depth_weight_exponent(FilterSurface p, float depth_q, vec2 offset, float s
     return abs(p.depth - depth_q) / max(expected, 1e-37);  // 1e-37: only for offset 0
 }
 
-// Eq. 4: max(0, n_p . n_q) ^ sigma_n.
-float normal_weight(vec3 normal_p, vec3 normal_q, float sigma_normal)
+// Eq. 4, max(0, n_p . n_q) ^ sigma_n, as the exponent -x of exp(-x): the three edge-stopping functions multiply, so
+// their exponents add up to a single exponential.
+float normal_weight_exponent(vec3 normal_p, vec3 normal_q, float sigma_normal)
 {
-    const float cosine = clamp(dot(normal_p, normal_q), 0.0, 1.0);
-    return sigma_normal > 0.0 ? pow(max(cosine, 1e-8), sigma_normal) : 1.0;
+    const float cosine = clamp(dot(normal_p, normal_q), 1e-8, 1.0);
+    return -sigma_normal * log(cosine);
 }

@@ -100,11 +100,10 @@ HistorySum reproject(Current c, vec2 prev_pixel)
         add_tap(c, ivec2(corner) + o, w.x * w.y, sum);
     }
     const ivec2 nearest = ivec2(floor(prev_pixel));
-    int i = sum.weight > 0.0 ? 9 : 0;
-    while (i < 9) {
-        add_tap(c, nearest + ivec2(i % 3, i / 3) - 1, 1.0, sum);
-        ++i;
-    }
+    const int radius = sum.weight > 0.0 ? -2 : 1;
+    for (int y = -radius; y <= radius; ++y)
+        for (int x = -radius; x <= radius; ++x)
+            add_tap(c, nearest + ivec2(x, y), 1.0, sum);
     return sum;
 }
 

@@ -40,21 +40,20 @@ void main()
     // Moments about the middle pixel's mean, so that the difference of two large numbers is never taken.
     vec4 sum = vec4(0.0);  // first and second moment of direct (xy), of indirect (zw)
     float weight_sum = 0.0;
-    int tap = spatial ? 0 : 49;
-    while (tap < 49) {
-        const ivec2 offset = ivec2(tap % 7, tap / 7) - RADIUS;
-        const ivec2 q = px + offset;
-        const FilterSurface other = unpack_surface(texelFetch(in_surface, q, 0));
-        const vec4 moments = texelFetch(in_moments, q, 0);
-        const float weight = exp(-depth_weight_exponent(p, other.depth, vec2(offset), sigma_depth))
-            * normal_weight(p.normal, other.normal, sigma_normal);
-        if (inside_frame(q) && other.depth > 0.0) {
-            const vec2 delta = moments.xz - center.xz;
-            sum += weight * vec4(delta.x, moments.y + delta.x * delta.x, delta.y, moments.w + delta.y * delta.y);
-            weight_sum += weight;
+    const int radius = spatial ? RADIUS : -RADIUS - 1;
+    for (int y = -radius; y <= radius; ++y)
+        for (int x = -radius; x <= radius; ++x) {
+            const ivec2 q = px + ivec2(x, y);
+            const FilterSurface other = unpack_surface(texelFetch(in_surface, q, 0));
+            const vec4 moments = texelFetch(in_moments, q, 0);
+            const float weight = exp(-depth_weight_exponent(p, other.depth, vec2(x, y), sigma_depth)
+                - normal_weight_exponent(p.normal, other.normal, sigma_normal));
+            if (inside_frame(q) && other.depth > 0.0) {
+                const vec2 delta = moments.xz - center.xz;
+                sum += weight * vec4(delta.x, moments.y + delta.x * delta.x, delta.y, moments.w + delta.y * delta.y);
+                weight_sum += weight;
+            }
         }
-        ++tap;
-    }
     vec2 variance = vec2(direct.a, indirect.a);
     if (spatial) {
         const vec4 m = sum / weight_sum;

@@ -1,0 +1,189 @@
+// FrameGraph: what it refuses, what it keeps, what it reuses.
+#include "server/gl/gl_error.h"
+#include "tests/support/compute.h"
+#include "tests/support/gl_test.h"
+
+namespace farlight {
+namespace {
+
+constexpr Extent kExtent{16, 8};
+
+constexpr const char* kAddOne = R"(#version 450
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D in_value;
+uniform writeonly image2D out_value;
+uniform float amount;
+void main()
+{
+    const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
+    imageStore(out_value, px, texelFetch(in_value, px, 0) + amount);
+}
+)";
+
+constexpr const char* kFill = R"(#version 450
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform writeonly image2D out_value;
+uniform float amount;
+void main() { imageStore(out_value, ivec2(gl_GlobalInvocationID.xy), vec4(amount)); }
+)";
+
+class FrameGraphTest : public GlTest {
+protected:
+    FrameGraphTest()
+    {
+        add_shader_file("tests/add_one", kAddOne);
+        add_shader_file("tests/fill", kFill);
+        graph.begin_frame(kExtent, {});
+    }
+    TextureHandle filled(float amount)
+    {
+        const TextureHandle texture = graph.create("filled", GL_RGBA32F);
+        graph.add_pass("fill", "tests/fill").write("out_value", texture).constant("amount", amount);
+        return texture;
+    }
+    TextureHandle plus(TextureHandle texture, float amount)
+    {
+        const TextureHandle sum = graph.create("sum", GL_RGBA32F);
+        graph.add_pass("add", "tests/add_one")
+            .read("in_value", texture)
+            .write("out_value", sum)
+            .constant("amount", amount);
+        return sum;
+    }
+    float value_of(TextureHandle texture)
+    {
+        Readback readback;
+        readback.begin(graph.texture(texture));
+        return pixel(readback.finish(), kExtent.width - 1, kExtent.height - 1).x;
+    }
+    void expect_refused(const std::string& part_a, const std::string& part_b)
+    {
+        try {
+            graph.execute();
+            FAIL() << "not refused";
+        } catch (const ShaderError& error) {
+            EXPECT_NE(std::string(error.what()).find(part_a), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(part_b), std::string::npos) << error.what();
+        }
+    }
+
+    ProgramCache programs;
+    FrameGraph graph{programs, true};
+};
+
+TEST_F(FrameGraphTest, PassesRunInOrderAndSeeEachOthersWrites)
+{
+    TextureHandle texture = filled(1);
+    for (int i = 0; i < 10; ++i)
+        texture = plus(texture, 1);
+    graph.keep(texture);
+    graph.execute();
+    EXPECT_EQ(value_of(texture), 11);
+    EXPECT_EQ(graph.pass_names().size(), 11U);
+    EXPECT_EQ(graph.collect_times().size(), 11U);
+}
+
+/// Ten passes in a row need two textures, not eleven.
+TEST_F(FrameGraphTest, TransientMemoryIsReused)
+{
+    TextureHandle texture = filled(1);
+    for (int i = 0; i < 10; ++i)
+        texture = plus(texture, 1);
+    graph.execute();
+    EXPECT_EQ(graph.texture_bytes(), 2U * 16 * kExtent.width * kExtent.height);
+}
+
+TEST_F(FrameGraphTest, HistoryIsLastFramesCurrent)
+{
+    for (int frame = 0; frame < 5; ++frame) {
+        graph.begin_frame(kExtent, {});
+        const History history = graph.history("count", GL_RGBA32F);
+        EXPECT_EQ(history.valid, frame > 0);
+        graph.add_pass("add", "tests/add_one")
+            .read("in_value", history.previous)
+            .write("out_value", history.current)
+            .constant("amount", 1.0F);
+        graph.execute();
+        EXPECT_EQ(value_of(history.current), static_cast<float>(frame + 1));
+    }
+}
+
+TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndAfterAResize)
+{
+    const auto write = [&](Extent extent) {
+        graph.begin_frame(extent, {});
+        const History history = graph.history("count", GL_RGBA32F);
+        graph.add_pass("fill", "tests/fill")
+            .write("out_value", history.current)
+            .constant("amount", 1.0F);
+        graph.execute();
+        return history.valid;
+    };
+    EXPECT_FALSE(write(kExtent));
+    EXPECT_TRUE(write(kExtent));
+    graph.begin_frame(kExtent, {});  // a frame without the pass
+    graph.execute();
+    EXPECT_FALSE(write(kExtent));
+    EXPECT_TRUE(write(kExtent));
+    EXPECT_FALSE(write({8, 8}));
+}
+
+TEST_F(FrameGraphTest, RefusesAConstantTheShaderDoesNotUse)
+{
+    const TextureHandle texture = graph.create("t", GL_RGBA32F);
+    graph.add_pass("fill", "tests/fill")
+        .write("out_value", texture)
+        .constant("amount", 1.0F)
+        .constant("variance_epsilon", 1e-4F);
+    expect_refused("pass 'fill': 'variance_epsilon'", "is declared but the shader does not use it");
+}
+
+TEST_F(FrameGraphTest, RefusesAVariableNobodyDeclared)
+{
+    graph.add_pass("fill", "tests/fill").write("out_value", graph.create("t", GL_RGBA32F));
+    expect_refused("pass 'fill': 'amount'", "is used by the shader but not declared");
+}
+
+TEST_F(FrameGraphTest, RefusesAConstantOfAnotherType)
+{
+    graph.add_pass("fill", "tests/fill")
+        .write("out_value", graph.create("t", GL_RGBA32F))
+        .constant("amount", 1);
+    expect_refused("pass 'fill': 'amount'", "not declared with this kind and type");
+}
+
+TEST_F(FrameGraphTest, RefusesReadingWhatNobodyWrote)
+{
+    plus(graph.create("nothing", GL_RGBA32F), 1);
+    expect_refused(
+        "pass 'add': 'in_value'", "reads texture 'nothing' before any pass has written it");
+}
+
+TEST_F(FrameGraphTest, RefusesWritingToASampler)
+{
+    const TextureHandle a = filled(1);
+    const TextureHandle b = graph.create("b", GL_RGBA32F);
+    graph.add_pass("add", "tests/add_one")
+        .write("in_value", a)
+        .write("out_value", b)
+        .constant("amount", 1.0F);
+    expect_refused("pass 'add': 'in_value'", "not declared with this kind and type");
+}
+
+TEST_F(FrameGraphTest, AShaderThatDoesNotCompileNamesItsFileAndLog)
+{
+    add_shader_file(
+        "tests/broken", "#version 450\n#include \"lib/numbers.glsl\"\nvoid main() { oops(); }\n");
+    graph.add_pass("broken", "tests/broken");
+    expect_refused("tests/broken", "1=lib/numbers.glsl");
+}
+
+TEST_F(FrameGraphTest, AMissingIncludeNamesTheIncludingLine)
+{
+    add_shader_file("tests/lost", "#version 450\n#include \"lib/nowhere.glsl\"\nvoid main() { }\n");
+    graph.add_pass("lost", "tests/lost");
+    expect_refused("tests/lost:2", "'lib/nowhere.glsl' does not exist");
+}
+
+}  // namespace
+}  // namespace farlight
