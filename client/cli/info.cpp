@@ -24,8 +24,10 @@ std::string allowed_values(const nlohmann::json& setting)
             text += (text.empty() ? "" : ", ") + choice.get<std::string>();
         return text;
     }
-    return setting.contains("lower") ? setting["lower"].dump() + " to " + setting["upper"].dump()
-                                     : std::string("true, false");
+    if (setting.value("type", "") == "boolean")
+        return "true, false";
+    return setting.value("lower", nlohmann::json()).dump() + " to "
+        + setting.value("upper", nlohmann::json()).dump();
 }
 
 void print_text(const protocol::Welcome& welcome)

@@ -1,0 +1,174 @@
+// What a server says to a client, as plain structs. PROTOCOL.md section 4 says what they mean.
+#pragma once
+
+#include "protocol/fields.h"
+
+namespace farlight::protocol {
+
+struct Keyframe {
+    double frame = 0;  ///< Frames since the path's start, strictly increasing.
+    Pose pose;  ///< Its fields lie beside `frame`.
+
+    bool operator==(const Keyframe&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("frame", m.frame, Rule{.lower = 0, .upper = 1e9});
+        Pose::each_field(m.pose, visit);
+    }
+};
+
+struct BoundingBox {
+    std::array<double, 3> lower{};
+    std::array<double, 3> upper{};
+
+    bool operator==(const BoundingBox&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("lower", m.lower, Rule{});
+        visit("upper", m.upper, Rule{});
+    }
+};
+
+struct SceneSummary {
+    std::string name;
+    std::string file;
+    std::vector<std::string> notes;
+    std::optional<BoundingBox> bounds;  ///< Absent for an empty scene.
+    std::uint64_t triangles = 0;
+    std::uint64_t lights = 0;
+
+    bool operator==(const SceneSummary&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("name", m.name, Rule{});
+        visit("file", m.file, Rule{});
+        visit("notes", m.notes, Rule{});
+        visit("bounds", m.bounds, Rule{});
+        visit("triangles", m.triangles, Rule{});
+        visit("lights", m.lights, Rule{});
+    }
+};
+
+struct Limits {
+    std::uint32_t max_dimension = 0;  ///< [px] largest width or height.
+    std::uint32_t max_in_flight = kMaxInFlight;
+    std::uint32_t max_message_bytes = kMaxClientTextBytes;
+
+    bool operator==(const Limits&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("max_dimension", m.max_dimension, Rule{});
+        visit("max_in_flight", m.max_in_flight, Rule{});
+        visit("max_message_bytes", m.max_message_bytes, Rule{});
+    }
+};
+
+struct Welcome {
+    static constexpr std::string_view kType = "welcome";
+
+    std::string protocol{kSubprotocol};
+    std::string server;  ///< Name and version.
+    std::string session;
+    Mode mode = Mode::kInteractive;
+    Format format = Format::kJpeg420;
+    Size size{1, 1};
+    std::uint32_t max_in_flight = 2;
+    std::string device;
+    std::string gl_renderer;
+    SceneSummary scene;
+    Pose camera;
+    std::map<std::string, std::vector<Keyframe>> camera_paths;
+    std::vector<std::string> effects;
+    nlohmann::json settings = nlohmann::json::array();  ///< As describe_settings() writes them.
+    Limits limits;
+
+    bool operator==(const Welcome&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("protocol", m.protocol, Rule{});
+        visit("server", m.server, Rule{});
+        visit("session", m.session, Rule{});
+        visit("mode", m.mode, Rule{});
+        visit("format", m.format, Rule{});
+        visit("size", m.size, kSizeRule);
+        visit("max_in_flight", m.max_in_flight, Rule{.lower = 1, .upper = kMaxInFlight});
+        visit("device", m.device, Rule{});
+        visit("gl_renderer", m.gl_renderer, Rule{});
+        visit("scene", m.scene, Rule{});
+        visit("camera", m.camera, Rule{});
+        visit("camera_paths", m.camera_paths, Rule{});
+        visit("effects", m.effects, Rule{});
+        visit("settings", m.settings, Rule{});
+        visit("limits", m.limits, Rule{});
+    }
+};
+
+struct State {
+    static constexpr std::string_view kType = "state";
+
+    std::map<std::string, nlohmann::json> settings;  ///< Every setting, not only the changed one.
+    Size size{1, 1};
+    Format format = Format::kJpeg420;
+
+    bool operator==(const State&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("settings", m.settings, Rule{});
+        visit("size", m.size, kSizeRule);
+        visit("format", m.format, Rule{});
+    }
+};
+
+struct Error {
+    static constexpr std::string_view kType = "error";
+
+    ErrorCode code = ErrorCode::kNotJson;
+    std::string message;  ///< For people: what was found, what was expected.
+    std::optional<std::string> field;  ///< The field or setting at fault.
+    bool fatal = false;  ///< The server closes the connection next.
+
+    bool operator==(const Error&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("code", m.code, Rule{});
+        visit("message", m.message, Rule{});
+        visit("field", m.field, Rule{});
+        visit("fatal", m.fatal, Rule{});
+    }
+};
+
+struct Pong {
+    static constexpr std::string_view kType = "pong";
+
+    double t = 0;
+
+    bool operator==(const Pong&) const = default;
+
+    static void each_field(auto& m, auto&& visit) { visit("t", m.t, Rule{}); }
+};
+
+struct ServerBye {
+    static constexpr std::string_view kType = "bye";
+
+    std::string reason;
+    std::uint32_t reconnect_ms = 0;  ///< Wait this long before connecting again.
+
+    bool operator==(const ServerBye&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("reason", m.reason, Rule{});
+        visit("reconnect_ms", m.reconnect_ms, Rule{});
+    }
+};
+
+using ServerMessage = std::variant<Welcome, State, Error, Pong, ServerBye>;
+
+}  // namespace farlight::protocol
