@@ -5,6 +5,7 @@
 #include "client/server_process.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace farlight::client {
@@ -23,7 +24,8 @@ double quantile(std::vector<double> values, double share)
 {
     if (values.empty())
         return 0;
-    const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+    const auto at =
+        static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
     std::nth_element(
         values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
     return values[at];
@@ -31,39 +33,8 @@ double quantile(std::vector<double> values, double share)
 
 namespace {
 
-int run(const std::vector<Command>& commands)
+int run(int argc, char** argv)
 {
-    for (const Command& command : commands)
-        if (command.app->parsed())
-            return command.run();
-    return kWrongUse;
-}
-
-int guarded_run(const std::vector<Command>& commands)
-{
-    try {
-        return run(commands);
-    } catch (const InputError& problem) {
-        say(std::string("farlight: ") + problem.what());
-        return kWrongUse;
-    } catch (const std::invalid_argument& problem) {
-        say(std::string("farlight: ") + problem.what());
-        return kWrongUse;
-    } catch (const ServerProcessError& problem) {
-        say(std::string("farlight: ") + problem.what());
-        return problem.exit_status == kWrongUse ? kWrongUse : kFailed;
-    } catch (const std::exception& problem) {
-        say(std::string("farlight: ") + problem.what());
-        return kFailed;
-    }
-}
-
-}  // namespace
-}  // namespace farlight::client
-
-int main(int argc, char** argv)
-{
-    using namespace farlight::client;
     CLI::App app("farlight: asks, records, tests and measures a Farlight render server");
     app.set_version_flag("--version", "farlight " FARLIGHT_VERSION);
     app.require_subcommand(1);
@@ -74,5 +45,33 @@ int main(int argc, char** argv)
     } catch (const CLI::ParseError& problem) {
         return app.exit(problem) == 0 ? kDone : kWrongUse;
     }
-    return guarded_run(commands);
+    for (const Command& command : commands)
+        if (command.app->parsed())
+            return command.run();
+    return kWrongUse;
+}
+
+int complain(const std::exception& problem, int status)
+{
+    say(std::string("farlight: ") + problem.what());
+    return status;
+}
+
+}  // namespace
+}  // namespace farlight::client
+
+int main(int argc, char** argv)
+{
+    using namespace farlight::client;
+    try {
+        return run(argc, argv);
+    } catch (const InputError& problem) {
+        return complain(problem, kWrongUse);
+    } catch (const std::invalid_argument& problem) {
+        return complain(problem, kWrongUse);
+    } catch (const ServerProcessError& problem) {
+        return complain(problem, problem.exit_status == kWrongUse ? kWrongUse : kFailed);
+    } catch (const std::exception& problem) {
+        return complain(problem, kFailed);
+    }
 }

@@ -1,5 +1,5 @@
-# A farlight.v1 client and a way to start the server, written from PROTOCOL.md alone: it shares no code with the
-# native client, so that the page, not the code, is what both sides agree on.
+# A farlight.v1 client and a way to start the server, written from PROTOCOL.md alone: it shares no
+# code with the native client, so that the page, not the code, is what both sides agree on.
 import asyncio
 import http.client
 import json

@@ -64,7 +64,8 @@ def decode_png(data):
     while at < len(data):
         length, kind = struct.unpack_from(">I4s", data, at)
         body = data[at + 8 : at + 8 + length]
-        assert zlib.crc32(kind + body) == struct.unpack_from(">I", data, at + 8 + length)[0], "bad CRC"
+        expected = struct.unpack_from(">I", data, at + 8 + length)[0]
+        assert zlib.crc32(kind + body) == expected, "bad CRC"
         if kind == b"IHDR":
             head = struct.unpack(">IIBBBBB", body)
         elif kind == b"IDAT":
@@ -80,8 +81,9 @@ def decode_png(data):
         for x in range(stride):
             left = row[x - 3] if x >= 3 else 0
             corner = above[x - 3] if x >= 3 else 0
-            predicted = (0, left, above[x], (left + above[x]) // 2, _paeth(left, above[x], corner))[kind]
-            row[x] = (row[x] + predicted) & 255
+            mean = (left + above[x]) // 2
+            predictions = (0, left, above[x], mean, _paeth(left, above[x], corner))
+            row[x] = (row[x] + predictions[kind]) & 255
         pixels += row
         above = row
     return width, height, bytes(pixels)
