@@ -37,8 +37,9 @@ Bounds scene_bounds(const Scene& scene)
 {
     Bounds bounds;
     for (const Object& object : scene.objects)
-        bounds.extend(std::visit(
-            [&](const auto& shape) { return shape_bounds(scene, shape); }, object.shape));
+        if (object.framed)
+            bounds.extend(std::visit(
+                [&](const auto& shape) { return shape_bounds(scene, shape); }, object.shape));
     return bounds;
 }
 

@@ -69,6 +69,7 @@ struct Object {
     std::string name;
     std::uint32_t material = 0;  ///< Index into Scene::materials.
     std::variant<Sphere, Quad, MeshInstance> shape;
+    bool framed = true;  ///< Counts towards scene_bounds(); a light placed by default does not.
 };
 
 struct Bounds {
@@ -97,7 +98,7 @@ struct Scene {
     std::vector<std::string> notes;  ///< What the loader decided or repaired, one sentence each.
 };
 
-/// World-space bounds of all objects; empty() for an empty scene.
+/// World-space bounds of all framed objects; empty() for an empty scene.
 Bounds scene_bounds(const Scene& scene);
 
 }  // namespace farlight

@@ -5,6 +5,12 @@
 #include <cmath>
 
 namespace farlight {
+namespace {
+
+/// The lamp is seen under (r / d)^2 = 1/25, so facing it a surface receives pi * 0.8 W/m^2.
+constexpr float kLampRadiance = 20;
+
+}  // namespace
 
 CameraPose framing_camera(const Bounds& bounds)
 {
@@ -33,8 +39,20 @@ void add_default_light(Scene& scene)
         });
     if (object_emits || scene.background != glm::vec3(0))
         return;
-    scene.background = glm::vec3(1);
-    scene.notes.emplace_back("the file has no light: a soft one comes from all around, radiance 1");
+    // Light from all around alone would make a white model vanish before a white background: a lamp
+    // models it.
+    const Bounds bounds = scene_bounds(scene);
+    const glm::dvec3 direction =
+        glm::normalize(glm::dvec3(-0.5, 1, 0.6));  // over the viewer's left shoulder
+    const double distance = 5 * bounds.radius();
+    scene.background = glm::vec3(0.4F);
+    scene.materials.push_back({"default light", glm::vec3(0), glm::vec3(kLampRadiance)});
+    scene.objects.push_back(
+        {"default light", static_cast<std::uint32_t>(scene.materials.size() - 1),
+            Sphere{bounds.center() + distance * direction, bounds.radius()}, false});
+    scene.notes.emplace_back(
+        "the file has no light: a soft one comes from all around, radiance 0.4, and from a lamp "
+        "over the viewer's left shoulder, radiance 20");
 }
 
 }  // namespace farlight
