@@ -87,7 +87,8 @@ Decoded<Variant> read_as(const std::string& type, const Json& json)
             check(message, reader);
         if (reader.error())
             return *reader.error();
-        return Variant(std::move(message));
+        return Decoded<Variant>(
+            std::in_place_type<Variant>, std::in_place_type<Message>, std::move(message));
     }
 }
 
