@@ -1,6 +1,6 @@
 // Closest-hit and any-hit traversal of the four-wide tree.
 //
-// Both are loops within loops, not branches: llvmpipe runs both sides of an `if` for all lanes but leaves a loop
+// Loops within loops, not branches: llvmpipe runs both sides of an `if` for all lanes but leaves a loop
 // once no lane is in it. The inner loop descends until every lane has a leaf or nothing; the leaf loop tests
 // primitives. The stack holds what the scene's tree can need (BVH_STACK_SIZE, from the builder).
 //
@@ -68,8 +68,8 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
 
 uint leaf_count(uint leaf) { return ((leaf >> BVH_COUNT_SHIFT) & 3u) + 1u; }
 
-// The nearest hit with 0 < t < t_max; t_max <= 0 traverses nothing.
-Hit closest_hit(Ray r, float t_max)
+// Children are visited nearest first, for shadow rays too: what blocks a ray is more often near than far.
+Hit traverse(Ray r, float t_max, const bool first_hit_ends)
 {
     const Traversal ray = prepare(r);
     Hit hit = Hit(t_max, NO_HIT, vec2(0.0));
@@ -103,45 +103,15 @@ Hit closest_hit(Ray r, float t_max)
             do {
                 intersect_primitive(ray, node, k, hit);
             } while (++k < leaf_count(node));
-            node = depth > 0 ? stack[--depth] : BVH_NO_CHILD;
+            const bool ended = first_hit_ends && hit.slot != NO_HIT;
+            node = depth > 0 && !ended ? stack[--depth] : BVH_NO_CHILD;
         }
     } while (node != BVH_NO_CHILD);
     return hit;
 }
 
-// Whether anything lies within 0 < t < t_max; t_max <= 0 traverses nothing.
-bool any_hit(Ray r, float t_max)
-{
-    const Traversal ray = prepare(r);
-    Hit hit = Hit(t_max, NO_HIT, vec2(0.0));
-    uint stack[BVH_STACK_SIZE];
-    int depth = 0;
-    uint node = t_max > 0.0 ? 0u : BVH_NO_CHILD;
-    do {
-        do {
-            const bool inner = node < BVH_NO_CHILD;
-            const NodeHit box = intersect_node(ray, inner ? node : 0u, t_max);
-            if (inner) {
-                node = BVH_NO_CHILD;
-                for (int i = 0; i < 4; ++i) {
-                    if (box.t[i] < T_INFINITY) {
-                        if (node != BVH_NO_CHILD)
-                            stack[depth++] = node;
-                        node = box.children[i];
-                    }
-                }
-                if (node == BVH_NO_CHILD && depth > 0)
-                    node = stack[--depth];
-            }
-        } while (node < BVH_NO_CHILD);
+// The nearest hit with 0 < t < t_max; t_max <= 0 traverses nothing.
+Hit closest_hit(Ray ray, float t_max) { return traverse(ray, t_max, false); }
 
-        if (node != BVH_NO_CHILD) {
-            uint k = 0u;
-            do {
-                intersect_primitive(ray, node, k, hit);
-            } while (++k < leaf_count(node));
-            node = depth > 0 && hit.slot == NO_HIT ? stack[--depth] : BVH_NO_CHILD;
-        }
-    } while (node != BVH_NO_CHILD);
-    return hit.slot != NO_HIT;
-}
+// Whether anything lies within 0 < t < t_max; t_max <= 0 traverses nothing.
+bool any_hit(Ray ray, float t_max) { return traverse(ray, t_max, true).slot != NO_HIT; }

@@ -2,20 +2,15 @@
 #include "server/gl/buffer.h"
 #include "shaders/shared/scene_layout.h"
 #include "tests/support/compute.h"
+#include "tests/support/embree_oracle.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/meshes.h"
 
-#include <embree3/rtcore.h>
 #include <fstream>
 #include <random>
 
 namespace farlight {
 namespace {
-
-struct TestRay {
-    glm::vec3 origin;
-    glm::vec3 direction;
-};
 
 struct DeviceHit {
     float t;
@@ -58,62 +53,6 @@ std::vector<DeviceHit> trace_on_device(const TestScene& scene, const std::vector
             static_cast<std::uint32_t>(r.y) | (static_cast<std::uint32_t>(r.z) << 16), r.w != 0});
     return hits;
 }
-
-/// Embree over the packed triangles: its primID is our slot.
-class Oracle {
-public:
-    explicit Oracle(const PackedScene& packed) : packed_(packed)
-    {
-        const std::size_t count = packed.triangle_count;
-        RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * count));
-        auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
-        for (unsigned i = 0; i < 3 * count; ++i) {
-            positions[i] = vertex(i);
-            indices[i] = i;
-        }
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(scene_, geometry);
-        rtcReleaseGeometry(geometry);
-        rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-        rtcCommitScene(scene_);
-    }
-    ~Oracle()
-    {
-        rtcReleaseScene(scene_);
-        rtcReleaseDevice(device_);
-    }
-    Oracle(const Oracle&) = delete;
-    Oracle& operator=(const Oracle&) = delete;
-
-    glm::vec3 vertex(unsigned i) const
-    {
-        return glm::uintBitsToFloat(glm::uvec3(packed_.triangles[i]));
-    }
-
-    RTCRayHit trace(const TestRay& ray) const
-    {
-        RTCRayHit query{};
-        query.ray.org_x = ray.origin.x, query.ray.org_y = ray.origin.y,
-        query.ray.org_z = ray.origin.z;
-        query.ray.dir_x = ray.direction.x, query.ray.dir_y = ray.direction.y,
-        query.ray.dir_z = ray.direction.z;
-        query.ray.tfar = 1e30F;
-        query.ray.mask = ~0U;
-        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene_, &context, &query);
-        return query;
-    }
-
-private:
-    const PackedScene& packed_;
-    RTCDevice device_ = rtcNewDevice(nullptr);
-    RTCScene scene_ = rtcNewScene(device_);
-};
 
 glm::vec3 random_direction(std::mt19937& random)
 {
@@ -168,7 +107,7 @@ TEST_P(TraversalTest, EqualsEmbreeForAHundredThousandRays)
         GTEST_SKIP() << "the model is not on this machine";
     const TestScene on_device(*scene);
     const PackedScene packed = pack_scene(*scene);
-    const Oracle oracle(packed);
+    const EmbreeOracle oracle(packed);
     const Bounds bounds = scene_bounds(*scene);
     const std::vector<TestRay> rays = random_rays(bounds, 100'000, 17);
     const std::vector<DeviceHit> hits = trace_on_device(on_device, rays);
@@ -177,7 +116,7 @@ TEST_P(TraversalTest, EqualsEmbreeForAHundredThousandRays)
     std::size_t wrong = 0;
     std::size_t met = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const RTCRayHit expected = oracle.trace(rays[i]);
+        const RTCRayHit expected = oracle.closest(rays[i]);
         const bool hit = hits[i].slot != 0xffffffffU;
         const bool expected_hit = expected.hit.geomID != RTC_INVALID_GEOMETRY_ID;
         // At grazing incidence a unit of rounding in position is many in distance.
