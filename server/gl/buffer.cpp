@@ -1,3 +1,4 @@
+// Immutable storage and its view as a buffer texture.
 #include "server/gl/buffer.h"
 
 #include <cassert>

@@ -29,6 +29,7 @@ bool is_software_renderer(std::string_view renderer)
         || renderer.find("SwiftShader") != std::string_view::npos;
 }
 
+// NOLINTNEXTLINE(readability-function-size): OpenGL fixes the parameters.
 void GLAPIENTRY log_debug_message(
     GLenum, GLenum type, GLuint, GLenum severity, GLsizei, const GLchar* message, const void*)
 {

@@ -1,3 +1,4 @@
+// Timestamp queries on hardware, the host clock on llvmpipe.
 #include "server/gl/gpu_timer.h"
 
 namespace farlight {

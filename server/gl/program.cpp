@@ -1,3 +1,4 @@
+// Compiling, linking, and asking the driver what the program uses.
 #include "server/gl/program.h"
 
 #include "server/gl/gl_error.h"

@@ -1,3 +1,4 @@
+// Include resolution with #line bookkeeping, so that logs can be traced to files.
 #include "server/gl/shader_source.h"
 
 #include "server/gl/gl_error.h"
@@ -8,7 +9,7 @@
 namespace farlight {
 
 /// Defined by the file that the build generates from shaders/.
-extern const std::map<std::string, std::string, std::less<>> kEmbeddedShaders;
+const std::map<std::string, std::string, std::less<>>& embedded_shaders();
 
 namespace {
 
@@ -57,7 +58,11 @@ void append_file(
             source.text += line + "\n";
             if (defines != nullptr && trimmed(line).starts_with("#version")) {
                 for (const auto& [name, value] : *defines)
-                    source.text += "#define " + name + " " + value + "\n";
+                    source.text.append("#define ")
+                        .append(name)
+                        .append(" ")
+                        .append(value)
+                        .append("\n");
                 source.text += "#line " + std::to_string(line_number + 1) + " " + number + "\n";
             }
         }
@@ -68,7 +73,7 @@ void append_file(
 
 std::map<std::string, std::string, std::less<>>& shader_files()
 {
-    static std::map<std::string, std::string, std::less<>> files = kEmbeddedShaders;
+    static std::map<std::string, std::string, std::less<>> files = embedded_shaders();
     return files;
 }
 

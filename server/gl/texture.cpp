@@ -1,3 +1,4 @@
+// 2D storage, cleared at birth so that no frame shows another's pixels.
 #include "server/gl/texture.h"
 
 #include "server/gl/gl_error.h"

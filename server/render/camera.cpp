@@ -1,3 +1,4 @@
+// Poses in double precision to ray frames in single.
 #include "server/render/camera.h"
 
 #include <cmath>

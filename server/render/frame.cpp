@@ -1,3 +1,4 @@
+// The frame at a glance: which stages run, and what feeds what.
 #include "server/render/frame.h"
 
 #include "server/passes/accumulate.h"

@@ -1,3 +1,4 @@
+// Checking declarations against programs, texture lifetimes, barriers, dispatch.
 #include "server/render/frame_graph.h"
 
 #include "server/gl/gl_error.h"
@@ -236,27 +237,33 @@ void FrameGraph::complain(
         "pass '" + pass.name + "': '" + variable + "' " + problem + " (" + pass.shader + ")");
 }
 
+/// Whether the pass gives `name` a value of the right kind and type.
+bool FrameGraph::declares(
+    const Pass& pass, const std::string& name, const UniformVariable& variable)
+{
+    const bool is_image = kind_of(variable.type) == VariableKind::kImage;
+    return std::any_of(pass.uses.begin(), pass.uses.end(), [&](const auto& use) {
+        return use.name == name && (!use.write || is_image);
+    }) || std::any_of(pass.constants.begin(), pass.constants.end(), [&](const auto& row) {
+        return row.first == name && glsl_type(row.second) == variable.type;
+    }) || (pass.scene_inputs != nullptr && pass.scene_inputs->buffers.contains(name));
+}
+
+bool FrameGraph::offers_block(const std::string& name) const
+{
+    return std::any_of(
+        blocks_.begin(), blocks_.end(), [&](const auto& block) { return block.name == name; });
+}
+
 /// Used by the shader but declared by nobody.
 void FrameGraph::check(const Pass& pass, const Program& program) const
 {
-    for (const auto& [name, variable] : program.uniforms()) {
-        const bool texture = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const auto& use) {
-            return use.name == name
-                && (!use.write || kind_of(variable.type) == VariableKind::kImage);
-        });
-        const bool constant =
-            std::any_of(pass.constants.begin(), pass.constants.end(), [&](const auto& row) {
-                return row.first == name && glsl_type(row.second) == variable.type;
-            });
-        const bool buffer =
-            pass.scene_inputs != nullptr && pass.scene_inputs->buffers.contains(name);
-        if (!texture && !constant && !buffer)
+    for (const auto& [name, variable] : program.uniforms())
+        if (!declares(pass, name, variable))
             complain(pass, name, "is used by the shader but not declared with this kind and type");
-    }
     for (const auto* block_map : {&program.uniform_blocks(), &program.storage_blocks()})
         for (const auto& [name, binding] : *block_map)
-            if (std::none_of(blocks_.begin(), blocks_.end(),
-                    [&](const auto& block) { return block.name == name; }))
+            if (!offers_block(name))
                 complain(pass, name, "is a block the shader uses but the frame does not offer");
     check_declared(pass, program);
 }

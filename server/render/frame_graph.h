@@ -128,6 +128,9 @@ private:
         int resource_current = -1;
     };
 
+    static bool declares(
+        const Pass& pass, const std::string& name, const UniformVariable& variable);
+    bool offers_block(const std::string& name) const;
     void check(const Pass& pass, const Program& program) const;
     void check_declared(const Pass& pass, const Program& program) const;
     void complain(const Pass& pass, const std::string& variable, const std::string& problem) const;

@@ -1,3 +1,4 @@
+// Pixel buffer, fence, and dropping the alpha channel.
 #include "server/render/readback.h"
 
 #include "server/gl/gl_error.h"

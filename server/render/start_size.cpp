@@ -1,3 +1,4 @@
+// The ladder of start sizes and the measurement that picks one.
 #include "server/render/start_size.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Counting frames, filling the constants, running the graph, collecting the result.
 #include "server/render/view.h"
 
 #include "server/render/camera.h"

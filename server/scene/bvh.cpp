@@ -1,3 +1,4 @@
+// Embree builds the tree; here it is packed into texels, children next to their parent's word.
 #include "server/scene/bvh.h"
 
 #include "shaders/shared/scene_layout.h"

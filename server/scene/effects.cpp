@@ -1,3 +1,4 @@
+// One row an effect. Reasons name the first object that calls for it.
 #include "server/scene/effects.h"
 
 #include <functional>
@@ -53,7 +54,8 @@ std::optional<std::string> shading_normals(const Scene& scene)
 
 std::optional<std::string> area_lights(const Scene& scene)
 {
-    return objects_that(scene, "emitters", [&](const Object& object) { return emits(scene, object); });
+    return objects_that(
+        scene, "emitters", [&](const Object& object) { return emits(scene, object); });
 }
 
 std::optional<std::string> polygon_lights(const Scene& scene)

@@ -1,3 +1,4 @@
+// Flattening objects to world space, ordering them by the tree, uploading.
 #include "server/scene/gpu_scene.h"
 
 #include "server/gl/gl_error.h"

@@ -1,3 +1,4 @@
+// Power and the alias table, in double precision.
 #include "server/scene/lights.h"
 
 #include <cassert>

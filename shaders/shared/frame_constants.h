@@ -11,11 +11,11 @@ struct CameraConstants {
     vec3 position;          // world space [m]
     float pixel_footprint;  // height of a pixel at view depth 1 [m]
     vec3 forward;           // unit
-    float _pad0;
+    float pad0;
     vec3 right;  // half the picture's width at view depth 1
-    float _pad1;
+    float pad1;
     vec3 up;  // half the picture's height at view depth 1
-    float _pad2;
+    float pad2;
 };
 
 struct FrameConstants {
@@ -27,7 +27,7 @@ struct FrameConstants {
 
     uvec2 extent;  // render resolution [px]
     uint seed;
-    uint _pad0;
+    uint pad0;
 };
 
 SHARED_END

@@ -39,6 +39,8 @@ struct FurnaceCase {
     const char* name;
     float albedo;
     int max_depth;
+
+    friend void PrintTo(const FurnaceCase& c, std::ostream* out) { *out << c.name; }
 };
 
 class FurnaceTest : public GlTest, public testing::WithParamInterface<FurnaceCase> {
@@ -109,6 +111,8 @@ struct IrradianceCase {
     double expected;  ///< E [W/m^2] for a light of radiance 1.
     Object light;
     int samples;
+
+    friend void PrintTo(const IrradianceCase& c, std::ostream* out) { *out << c.name; }
 };
 
 Quad unit_quad_above(double height, const glm::dvec3& offset)

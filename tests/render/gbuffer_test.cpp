@@ -35,6 +35,8 @@ struct Move {
     glm::dvec3 position;
     glm::dvec3 target;
     double fov;
+
+    friend void PrintTo(const Move& move, std::ostream* out) { *out << move.name; }
 };
 
 class MotionTest : public GlTest, public testing::WithParamInterface<Move> { };
@@ -134,13 +136,20 @@ Scene white_things(double scale, const glm::dvec3& center)
     return scene;
 }
 
-class SelfIntersectionTest : public GlTest,
-                             public testing::WithParamInterface<std::pair<double, glm::dvec3>> { };
+struct Placement {
+    const char* name;
+    double scale;
+    glm::dvec3 at;  ///< In units of the scale.
+
+    friend void PrintTo(const Placement& placement, std::ostream* out) { *out << placement.name; }
+};
+
+class SelfIntersectionTest : public GlTest, public testing::WithParamInterface<Placement> { };
 
 TEST_P(SelfIntersectionTest, WhiteThingsUnderAWhiteSkyVanish)
 {
-    const auto& [scale, place] = GetParam();
-    const TestScene on_device(white_things(scale, scale * place));
+    const auto& [name, scale, at] = GetParam();
+    const TestScene on_device(white_things(scale, scale * at));
     RenderSettings s;
     s.denoiser = Denoiser::kNone;
     s.max_depth = 64;  // a path that has not escaped by then was caught
@@ -154,9 +163,11 @@ TEST_P(SelfIntersectionTest, WhiteThingsUnderAWhiteSkyVanish)
 }
 
 INSTANTIATE_TEST_SUITE_P(ScalesAndPlaces, SelfIntersectionTest,
-    testing::Values(std::pair{1.0, glm::dvec3(0)}, std::pair{1.0, glm::dvec3(0, 1.5, 0)},
-        std::pair{1e-3, glm::dvec3(0, 1.5, 4)}, std::pair{1e4, glm::dvec3(0)},
-        std::pair{1.0, glm::dvec3(1e3, 500, -250)}, std::pair{1e3, glm::dvec3(1e3, 500, -250)}));
+    testing::Values(Placement{"AtTheOrigin", 1, {0, 0, 0}},
+        Placement{"PlateAtExactlyZero", 1, {0, 1.5, 0}}, Placement{"Tiny", 1e-3, {0, 1.5, 4}},
+        Placement{"Huge", 1e4, {0, 0, 0}}, Placement{"FarAway", 1, {1e3, 500, -250}},
+        Placement{"LargeAndFarAway", 1e3, {1e3, 500, -250}}),
+    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace farlight

@@ -44,17 +44,17 @@ void main() { results[0] = vec4(frame.camera.position, 0.0); }
             std::map<std::string, std::size_t>{{"position", offsetof(CameraConstants, position)},
                 {"pixel_footprint", offsetof(CameraConstants, pixel_footprint)},
                 {"forward", offsetof(CameraConstants, forward)},
-                {"_pad0", offsetof(CameraConstants, _pad0)},
+                {"pad0", offsetof(CameraConstants, pad0)},
                 {"right", offsetof(CameraConstants, right)},
-                {"_pad1", offsetof(CameraConstants, _pad1)}, {"up", offsetof(CameraConstants, up)},
-                {"_pad2", offsetof(CameraConstants, _pad2)}})
+                {"pad1", offsetof(CameraConstants, pad1)}, {"up", offsetof(CameraConstants, up)},
+                {"pad2", offsetof(CameraConstants, pad2)}})
             expected["frame." + std::string(camera) + "." + member] =
                 static_cast<GLint>(base + offset);
     expected["frame.background"] = offsetof(FrameConstants, background);
     expected["frame.frame_index"] = offsetof(FrameConstants, frame_index);
     expected["frame.extent"] = offsetof(FrameConstants, extent);
     expected["frame.seed"] = offsetof(FrameConstants, seed);
-    expected["frame._pad0"] = offsetof(FrameConstants, _pad0);
+    expected["frame.pad0"] = offsetof(FrameConstants, pad0);
     EXPECT_EQ(member_offsets(program.id()), expected);
     EXPECT_EQ(sizeof(FrameConstants) % 16, 0U);
 }

@@ -1,3 +1,4 @@
+// Binding, dispatch and reading back for shader tests.
 #include "tests/support/compute.h"
 
 #include "server/gl/buffer.h"

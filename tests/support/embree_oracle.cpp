@@ -1,3 +1,4 @@
+// Embree's scene from packed triangles.
 #include "tests/support/embree_oracle.h"
 
 namespace farlight {

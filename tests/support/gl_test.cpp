@@ -1,3 +1,4 @@
+// The process-wide test context.
 #include "tests/support/gl_test.h"
 
 #include <cstring>

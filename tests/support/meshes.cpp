@@ -1,3 +1,4 @@
+// Meshes and rooms by formula.
 #include "tests/support/meshes.h"
 
 #include <glm/gtc/constants.hpp>

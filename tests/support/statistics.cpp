@@ -1,3 +1,4 @@
+// Estimates in double precision.
 #include "tests/support/statistics.h"
 
 #include <cmath>
