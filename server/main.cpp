@@ -86,9 +86,18 @@ void stop_on_signals(boost::asio::signal_set& signals, Listener& listener)
     });
 }
 
+/// A command line that could only be found wrong once device and scene were known.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 int serve(const Flags& flags)
 {
     Renderer renderer(load_scene(flags.scene), flags.renderer);
+    const auto [width, height] = renderer.description().default_extent;
+    if (const auto problem = refuse_extent(static_cast<std::uint64_t>(width),
+            static_cast<std::uint64_t>(height), renderer.description().max_dimension))
+        throw UsageError(*problem);
     RendererService service(renderer);
     Listener listener(service, flags.stream);
     tell(renderer.description(), flags);
@@ -125,6 +134,8 @@ int main(int argc, char** argv)
     using namespace farlight;
     try {
         return run(argc, argv);
+    } catch (const UsageError& problem) {
+        return explain(kWrongUsage, problem);
     } catch (const SceneError& problem) {
         return explain(kWrongUsage, problem);
     } catch (const DeviceError& problem) {

@@ -203,10 +203,10 @@ void Connection::advance()
 void Connection::carry_out_effects()
 {
     for (SessionEffect& effect : session_.take_effects())
-        std::visit([this](auto&& known) { carry_out(std::move(known)); }, std::move(effect));
+        std::visit([this](auto& known) { carry_out(std::move(known)); }, effect);
 }
 
-void Connection::carry_out(effects::Say say)
+void Connection::carry_out(const effects::Say& say)
 {
     texts_.push_back(protocol::encode(say.message));
 }

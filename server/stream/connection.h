@@ -68,7 +68,7 @@ private:
 
     void advance();
     void carry_out_effects();
-    void carry_out(effects::Say say);
+    void carry_out(const effects::Say& say);
     void carry_out(effects::Encode encode);
     void carry_out(effects::WakeRenderer wake);
     void carry_out(effects::Close close);

@@ -71,7 +71,7 @@ std::optional<Draw> DrawPlan::next()
     if (mode_ == protocol::Mode::kLockstep) {
         if (queue_.empty())
             return std::nullopt;
-        Draw draw = std::move(queue_.front());
+        Draw draw = queue_.front();
         queue_.pop_front();
         return draw;
     }

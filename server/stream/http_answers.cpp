@@ -58,6 +58,18 @@ std::optional<std::uint32_t> number_in(std::string_view text)
     return value;
 }
 
+std::string_view content_type_of(std::string_view path)
+{
+    constexpr std::pair<std::string_view, std::string_view> kTypes[] = {
+        {".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"},
+        {".css", "text/css; charset=utf-8"}, {".svg", "image/svg+xml"}, {".png", "image/png"},
+        {".ico", "image/x-icon"}};
+    for (const auto& [ending, type] : kTypes)
+        if (path.ends_with(ending))
+            return type;
+    return "application/octet-stream";
+}
+
 HttpResponse reject(
     const HttpRequest& request, Hub& hub, status why, std::string body, const std::string& reason)
 {
@@ -128,9 +140,11 @@ HttpResponse answer(const HttpRequest& request, Hub& hub)
         response.set(field::upgrade, "websocket");
         return response;
     }
-    for (const ViewerFile& file : viewer_files())
-        if (file.path == path)
-            return make_answer(request, status::ok, std::string(file.bytes), file.content_type);
+    if (path.starts_with('/')) {
+        const auto file = viewer_files().find(path == "/" ? "index.html" : path.substr(1));
+        if (file != viewer_files().end())
+            return make_answer(request, status::ok, file->second, content_type_of(file->first));
+    }
     return make_answer(request, status::not_found, "nothing is here\n");
 }
 

@@ -60,7 +60,7 @@ int Hub::frames_in_flight() const
 
 void Hub::detach_later(std::shared_ptr<FrameSource> source)
 {
-    boost::asio::post(workers, [this, source = std::move(source)] { renderer.detach(source); });
+    boost::asio::post(detacher, [this, source = std::move(source)] { renderer.detach(source); });
 }
 
 }  // namespace farlight

@@ -48,13 +48,14 @@ struct Hub {
 
     // Last, so that they go first: `context` holds connections, whose strands are those of
     // `workers`.
-    boost::asio::thread_pool workers;  ///< Encode, and detach from the renderer. Thread-safe.
+    boost::asio::thread_pool detacher{1};  ///< Waits for frames being drawn. Thread-safe.
+    boost::asio::thread_pool workers;  ///< Encode. Thread-safe.
     boost::asio::io_context context;  ///< The network thread's. Posting to it is thread-safe.
 
     /// Empty, or why no client can be served now.
     std::string not_ready() const;
     int frames_in_flight() const;
-    /// Detaches without holding up the network thread: a frame may be being drawn.
+    /// Detaches without holding up network or encoders: a frame may be being drawn.
     void detach_later(std::shared_ptr<FrameSource> source);
 };
 

@@ -29,10 +29,14 @@ unsigned char* deflate_all(unsigned char* bytes, int length, int* compressed_len
 }  // namespace
 
 #define STBIW_ZLIB_COMPRESS deflate_all
+#define STBIW_MALLOC(size) std::malloc((size) + 1)  // never 0 bytes, whose answer may be null
+#define STBIW_REALLOC(pointer, size) std::realloc(pointer, size)
+#define STBIW_FREE(pointer) std::free(pointer)
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wold-style-cast"
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 

@@ -63,6 +63,7 @@ Listener::~Listener()
         connection->detach_now();
     if (hub_.snapshot)
         hub_.renderer.detach(hub_.snapshot);
+    hub_.detacher.join();
     hub_.workers.join();
 }
 

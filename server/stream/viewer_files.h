@@ -1,17 +1,13 @@
 // The viewer page, embedded in the binary at build time from client/web.
 #pragma once
 
-#include <span>
-#include <string_view>
+#include <functional>
+#include <map>
+#include <string>
 
 namespace farlight {
 
-struct ViewerFile {
-    std::string_view path;  ///< As in a request: "/", "/viewer.js". The only paths there are.
-    std::string_view content_type;
-    std::string_view bytes;
-};
-
-std::span<const ViewerFile> viewer_files();
+/// Content by path below client/web, as "viewer.js". The only files the server has.
+const std::map<std::string, std::string, std::less<>>& viewer_files();
 
 }  // namespace farlight

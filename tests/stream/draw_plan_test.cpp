@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 using protocol::Format;
 using protocol::Mode;
 
-const Draw::Time kStart{1h};
+constexpr Draw::Time kStart{1h};
 
 DrawPlan make_plan(Mode mode, Format format = Format::kJpeg420)
 {

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const Pacing::Time kStart{1h};
+constexpr Pacing::Time kStart{1h};
 
 TEST(Pacing, AllowsAWindowOfFramesAndNoMore)
 {

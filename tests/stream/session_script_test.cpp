@@ -23,7 +23,7 @@ using nlohmann::json;
 
 json value_of(const std::string& text)
 {
-    const json plain = json::parse(text, nullptr, false);
+    json plain = json::parse(text, nullptr, false);
     if (!plain.is_discarded())
         return plain;
     const json array = json::parse("[" + text + "]", nullptr, false);

@@ -159,6 +159,25 @@ void TestClient::acknowledge(std::uint32_t frame_id)
     say(protocol::Ack{frame_id, std::nullopt, std::nullopt});
 }
 
+protocol::Hello lockstep(protocol::Format format, std::uint32_t max_in_flight)
+{
+    protocol::Hello hello;
+    hello.client = "test";
+    hello.mode = protocol::Mode::kLockstep;
+    hello.format = format;
+    hello.max_in_flight = max_in_flight;
+    return hello;
+}
+
+protocol::Hello interactive(std::uint32_t max_in_flight)
+{
+    protocol::Hello hello;
+    hello.client = "test";
+    hello.max_in_flight = max_in_flight;
+    hello.settings["still_samples"] = 16;
+    return hello;
+}
+
 HttpReply http_request(
     std::uint16_t port, const std::string& target, http::verb verb, const Headers& headers)
 {

@@ -69,6 +69,11 @@ private:
     int http_status_ = 0;
 };
 
+/// Greetings for the two modes; the interactive one has its final picture after 16 samples.
+protocol::Hello lockstep(
+    protocol::Format format = protocol::Format::kRaw, std::uint32_t max_in_flight = 2);
+protocol::Hello interactive(std::uint32_t max_in_flight = 2);
+
 /// One HTTP request on a connection of its own.
 HttpReply http_request(std::uint16_t port, const std::string& target,
     boost::beast::http::verb verb = boost::beast::http::verb::get, const Headers& headers = {});
