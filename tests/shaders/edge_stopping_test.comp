@@ -19,9 +19,9 @@ void main()
     EXPECT_EQ(depth_weight_exponent(p, 11.0, vec2(2.0, 1.0), 1.0),
         depth_weight_exponent(large, 11.0 * 1024.0, vec2(2.0, 1.0), 1.0));
 
-    EXPECT_NEAR(normal_weight(n, n, 128.0), 1.0, 1e-6);
-    EXPECT_NEAR(normal_weight(n, vec3(0.6, 0.0, 0.8), 2.0), 0.64, 1e-5);
-    EXPECT_NEAR(normal_weight(n, vec3(0.0, 0.0, -1.0), 128.0), 0.0, 1e-6);
-    EXPECT_EQ(normal_weight(n, vec3(1.0, 0.0, 0.0), 0.0), 1.0);  // 0 ^ 0 is not asked
-    EXPECT_TRUE(is_finite(normal_weight(n, vec3(0.0, 0.0, 1.0000005), 1024.0)));
+    EXPECT_NEAR(exp(-normal_weight_exponent(n, n, 128.0)), 1.0, 1e-6);
+    EXPECT_NEAR(exp(-normal_weight_exponent(n, vec3(0.6, 0.0, 0.8), 2.0)), 0.64, 1e-5);
+    EXPECT_NEAR(exp(-normal_weight_exponent(n, vec3(0.0, 0.0, -1.0), 128.0)), 0.0, 1e-6);
+    EXPECT_NEAR(exp(-normal_weight_exponent(n, vec3(1.0, 0.0, 0.0), 0.0)), 1.0, 1e-6);
+    EXPECT_TRUE(is_finite(normal_weight_exponent(n, vec3(0.0, 0.0, 1.0000005), 1024.0)));
 }
