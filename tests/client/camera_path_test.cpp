@@ -13,7 +13,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const Pose kPose{
+constexpr Pose kPose{
     .position = {0, 1, 5}, .target = {0, 1, 0}, .up = {0, 1, 0}, .vertical_fov_degrees = 40};
 
 auto near(double x, double y, double z)

@@ -45,8 +45,8 @@ protected:
         return {WEXITSTATUS(status), contents(file("out")), contents(file("err"))};
     }
 
-    FakeServer server_{[](FakePeer& peer) { serve_lockstep(peer, {}); }};
-    std::string url_ = " --url " + server_.url_text() + " ";
+    FakeServer server{[](FakePeer& peer) { serve_lockstep(peer, {}); }};
+    std::string url = " --url " + server.url_text() + " ";
 
 private:
     std::filesystem::path folder_ = std::filesystem::path(testing::TempDir())
@@ -74,19 +74,19 @@ TEST_F(CommandTest, NobodyThereIsStatusOne)
 
 TEST_F(CommandTest, InfoSaysWhatTheServerIs)
 {
-    const Outcome text = farlight("info" + url_);
+    const Outcome text = farlight("info" + url);
     EXPECT_EQ(text.status, 0) << text.err;
     EXPECT_THAT(text.out, HasSubstr("Fake (fake.json), 2 triangles, 1 lights"));
     EXPECT_THAT(text.out, HasSubstr("a note"));
     EXPECT_THAT(text.out, HasSubstr("same seed, same picture"));
-    const Outcome json = farlight("info --json" + url_);
+    const Outcome json = farlight("info --json" + url);
     EXPECT_EQ(nlohmann::json::parse(json.out)["scene"]["name"], "Fake");
 }
 
 TEST_F(CommandTest, RecordWritesNumberedFrames)
 {
     const Outcome outcome = farlight(
-        "record --orbit 20 --frames 3 --format pfm --json --size 8x4 --out " + file("r") + url_);
+        "record --orbit 20 --frames 3 --format pfm --json --size 8x4 --out " + file("r") + url);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
     ASSERT_EQ(json["frames"].size(), 3U);
@@ -100,16 +100,16 @@ TEST_F(CommandTest, RecordWritesNumberedFrames)
 
 TEST_F(CommandTest, RecordPlaysAPathOfTheSceneOrAFileToItsEnd)
 {
-    EXPECT_EQ(farlight("record --path push --format exr --out " + file("p") + url_).status, 0);
+    EXPECT_EQ(farlight("record --path push --format exr --out " + file("p") + url).status, 0);
     EXPECT_TRUE(std::filesystem::exists(file("p") + "/frame_00004.exr"));
     EXPECT_FALSE(std::filesystem::exists(file("p") + "/frame_00005.exr"));
     const std::string path = write("path.json",
         R"([{"frame":0,"position":[0,0,3],"target":[0,0,0],"vertical_fov_degrees":40},
             {"frame":1,"position":[0,0,2],"target":[0,0,0],"vertical_fov_degrees":40}])");
     EXPECT_EQ(
-        farlight("record --format exr --path " + path + " --out " + file("q") + url_).status, 0);
+        farlight("record --format exr --path " + path + " --out " + file("q") + url).status, 0);
     EXPECT_TRUE(std::filesystem::exists(file("q") + "/frame_00001.exr"));
-    EXPECT_EQ(farlight("record --path no_such --out " + file("n") + url_).status, 2);
+    EXPECT_EQ(farlight("record --path no_such --out " + file("n") + url).status, 2);
 }
 
 TEST_F(CommandTest, ScriptJudgesAndWritesJunit)
@@ -117,15 +117,15 @@ TEST_F(CommandTest, ScriptJudgesAndWritesJunit)
     const std::string good =
         write("good.json", R"({"scene":"x","expect":["nonfinite == 0","not_black"]})");
     const std::string bad = write("bad.json", R"({"scene":"x","expect":["mean(run) > 50"]})");
-    const Outcome passing = farlight("script " + good + url_);
+    const Outcome passing = farlight("script " + good + url);
     EXPECT_EQ(passing.status, 0) << passing.err;
     EXPECT_EQ(passing.out, "ok  nonfinite == 0  (0)\nok  not_black  (yes)\n");
     const Outcome failing =
-        farlight("script " + good + " " + bad + " --junit " + file("j.xml") + url_);
+        farlight("script " + good + " " + bad + " --junit " + file("j.xml") + url);
     EXPECT_EQ(failing.status, 1);
     EXPECT_THAT(failing.out, HasSubstr("FAIL mean(run) > 50  ("));
     EXPECT_THAT(contents(file("j.xml")), HasSubstr("<failure message="));
-    const Outcome json = farlight("script --json " + bad + url_);
+    const Outcome json = farlight("script --json " + bad + url);
     EXPECT_EQ(nlohmann::json::parse(json.out)[0]["verdicts"][0]["ok"], false);
 }
 
@@ -133,7 +133,7 @@ TEST_F(CommandTest, ABadScriptIsFoundBeforeAnythingIsPlayed)
 {
     const std::string good = write("good.json", R"({"scene":"x","expect":["nonfinite == 0"]})");
     const std::string bad = write("bad.json", R"({"scene":"x","expect":["teapot == 0"]})");
-    const Outcome outcome = farlight("script " + good + " " + bad + url_);
+    const Outcome outcome = farlight("script " + good + " " + bad + url);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_EQ(outcome.out, "");
     EXPECT_THAT(outcome.err, HasSubstr("bad.json: /expect/0: found 'teapot == 0', column 1"));
@@ -141,7 +141,7 @@ TEST_F(CommandTest, ABadScriptIsFoundBeforeAnythingIsPlayed)
 
 TEST_F(CommandTest, BenchPrintsPassesAndLatency)
 {
-    const Outcome outcome = farlight("bench --json --frames 2 --moves 3" + url_);
+    const Outcome outcome = farlight("bench --json --frames 2 --moves 3" + url);
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const auto json = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(json["sizes"][1]["size"], nlohmann::json({640, 360}));

@@ -14,7 +14,7 @@ using std::chrono::seconds;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const Hello kHello{.client = "test", .mode = Mode::kLockstep, .format = Format::kRaw};
+const Hello lockstep_hello{.client = "test", .mode = Mode::kLockstep, .format = Format::kRaw};
 
 TEST(Url, PartsAndDefaults)
 {
@@ -55,7 +55,7 @@ TEST(Connection, AServerThatNeverShakesHandsTimesOut)
 TEST(Session, LockstepGivesOneFrameACamera)
 {
     FakeServer server([](FakePeer& peer) { serve_lockstep(peer, {}); });
-    Session session(server.url(), kHello);
+    Session session(server.url(), lockstep_hello);
     EXPECT_EQ(session.welcome().scene.name, "Fake");
     for (std::uint32_t i = 1; i <= 5; ++i) {
         const Frame frame = session.draw(session.welcome().camera);
@@ -71,7 +71,7 @@ TEST(Session, ARefusalInHelloNamesTheSetting)
 {
     FakeServer server(
         [](FakePeer& peer) { serve_lockstep(peer, {.refuses_setting = "sharpness"}); });
-    Hello hello = kHello;
+    Hello hello = lockstep_hello;
     hello.settings["sharpness"] = 11;
     EXPECT_THAT([&] { Session session(server.url(), hello); },
         ThrowsMessage<RefusedError>(HasSubstr("setting 'sharpness' is unknown")));
@@ -93,7 +93,7 @@ TEST_P(SessionReports, WhatTheServerDidWrong)
         while (true)
             peer.read();
     });
-    Session session(server.url(), kHello);
+    Session session(server.url(), lockstep_hello);
     EXPECT_THAT(
         [&] { session.draw({}); }, ThrowsMessage<SessionError>(HasSubstr(GetParam().complaint)));
 }

@@ -54,9 +54,8 @@ private:
     boost::asio::io_context io_;
     boost::asio::ip::tcp::acceptor acceptor_;
     unsigned short port_ = 0;
-    std::vector<std::thread>
-        connections_;  ///< Touched by the accepting thread, then by the destructor.
-    std::thread accepting_;
+    std::vector<std::jthread> connections_;  ///< Touched by the accepting thread only.
+    std::jthread accepting_;  ///< Joined first, being last.
 };
 
 /// A renderer without geometry: every pixel is 1 plus noise that `none` leaves, `svgf` shrinks to a

@@ -65,7 +65,7 @@ TEST_F(PictureTest, PfmStoresTheBottomRowFirst)
     ASSERT_EQ(bytes.substr(0, head.size()), head);
     float first = 0;
     std::memcpy(&first, bytes.data() + head.size(), sizeof first);
-    EXPECT_EQ(first, linear_picture().linear[2 * 5 * 3]);
+    EXPECT_EQ(first, linear_picture().linear[std::size_t{2} * 5 * 3]);
 }
 
 TEST_F(PictureTest, PngKeepsEveryByteAndJpegTheLook)
@@ -76,7 +76,7 @@ TEST_F(PictureTest, PngKeepsEveryByteAndJpegTheLook)
     Picture gray{.width = 16,
         .height = 8,
         .linear = {},
-        .display = std::vector<std::uint8_t>(16 * 8 * 3, 90)};
+        .display = std::vector<std::uint8_t>(std::size_t{16} * 8 * 3, 90)};
     write_picture(file("p.jpg"), gray);
     for (const int value : read_picture(file("p.jpg")).display)
         EXPECT_NEAR(value, 90, 2);

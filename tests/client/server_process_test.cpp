@@ -22,7 +22,7 @@ std::vector<std::string> shell(const std::string& commands)
 }
 
 constexpr const char* kShell = "/bin/sh";
-const std::string kListens = "echo 'farlight-server: listening on http://127.0.0.1:4711/'; ";
+const std::string listening_line = "echo 'farlight-server: listening on http://127.0.0.1:4711/'; ";
 
 bool alive(pid_t pid)
 {
@@ -34,7 +34,7 @@ TEST(ServerProcess, IsFoundByTheLineItPrintsAndEndsWithTheObject)
     pid_t pid = 0;
     {
         const ServerProcess server(
-            kShell, shell("echo warming up; " + kListens + "exec sleep 100"));
+            kShell, shell("echo warming up; " + listening_line + "exec sleep 100"));
         EXPECT_EQ(server.url(), (Url{"127.0.0.1", "4711", "/ws"}));
         pid = server.pid();
         EXPECT_TRUE(alive(pid));
@@ -48,7 +48,7 @@ TEST(ServerProcess, OneThatEndsEarlyIsReportedWithItsWords)
         ThrowsMessage<ServerProcessError>(
             AllOf(HasSubstr("ended with status 2"), HasSubstr("no such scene"))));
     try {
-        ServerProcess(kShell, shell("exit 2"));
+        const ServerProcess server(kShell, shell("exit 2"));
         ADD_FAILURE() << "expected an exception";
     } catch (const ServerProcessError& problem) {
         EXPECT_EQ(problem.exit_status, 2);
@@ -77,7 +77,7 @@ TEST(ServerProcess, IsNotLeftBehindWhenWeAreKilled)
     ASSERT_EQ(pipe(link), 0);
     const pid_t victim = fork();
     if (victim == 0) {
-        const ServerProcess server(kShell, shell(kListens + "exec sleep 100"));
+        const ServerProcess server(kShell, shell(listening_line + "exec sleep 100"));
         const pid_t pid = server.pid();
         if (write(link[1], &pid, sizeof pid) == sizeof pid)
             kill(getpid(), SIGKILL);
