@@ -43,7 +43,7 @@ bool origin_is_allowed(const HttpRequest& request, const StreamOptions& options)
         if (allowed == "*" || boost::beast::iequals(allowed, {origin.data(), origin.size()}))
             return true;
     const auto scheme_end = origin.find("://");
-    if (scheme_end == std::string_view::npos)
+    if (scheme_end == std::string_view::npos || request[field::host].empty())
         return false;
     const std::string_view host = origin.substr(scheme_end + 3);
     return boost::beast::iequals({host.data(), host.size()}, request[field::host]);

@@ -3,9 +3,11 @@
 #include "tests/stream/session_bench.h"
 #include "tests/stream/test_client.h"
 
+#include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace farlight {
 namespace {
@@ -119,6 +121,33 @@ INSTANTIATE_TEST_SUITE_P(Rfc6455, BrokenFraming,
             std::string("\x81\xff\x7f\xff\xff\xff\xff\xff\xff\xff\0\0\0\0", 14)},
         BrokenFrame{"BadCloseCode", std::string("\x88\x82\0\0\0\0\x03\xe7", 8)}),
     [](const auto& parameter) { return parameter.param.name; });
+
+/// Random bytes, before and after the upgrade: the server neither falls over nor waits for sense.
+TEST(BadPeer, NoiseIsSurvived)
+{
+    StreamOptions options;
+    options.http_request = 100ms;
+    ServerUnderTest server(options);
+    std::mt19937 random(1);
+    const auto noise = [&] {
+        std::string bytes(random() % 200, '\0');
+        std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<char>(random()); });
+        return bytes;
+    };
+    for (int i = 0; i < 20; ++i)
+        raw_exchange(server.port(), noise());
+    for (int i = 0; i < 200; ++i) {
+        TestClient client(server.port());
+        if (i % 2 == 0)
+            client.hello(lockstep());
+        client.write_raw(noise());
+    }
+    EXPECT_EQ(http_request(server.port(), "/healthz").result_int(), 200);
+    TestClient client(server.port());
+    client.hello(lockstep());
+    client.say(camera_message(1));
+    EXPECT_EQ(client.next_frame().header.camera_sequence, 1U);
+}
 
 TEST(BadPeer, AClientThatDoesNotAcknowledgeGetsItsWindowAndIsThenClosed)
 {
