@@ -70,9 +70,9 @@ Pass& Pass::dispatch(Extent over)
     return *this;
 }
 
-FrameGraph::FrameGraph(ProgramCache& programs, bool software)
+FrameGraph::FrameGraph(ProgramCache& programs, bool software, bool strict)
     : programs_(programs)
-    , strict_(software)
+    , strict_(strict)
     , timer_(software)
 {
 }
@@ -278,7 +278,7 @@ void FrameGraph::check_declared(const Pass& pass, const Program& program) const
         if (strict_)
             complain(pass, name, "is declared but the shader does not use it");
         if (warned.insert(pass.name + "/" + name).second)
-            spdlog::warn(
+            spdlog::debug(
                 "pass '{}': '{}' is declared but not active in {}", pass.name, name, pass.shader);
     };
     for (const Pass::Use& use : pass.uses)

@@ -81,9 +81,11 @@ struct Pass {
 
 class FrameGraph {
 public:
-    /// `strict`: a declared name that is not active in the program throws too (else: warns once).
-    /// Drivers differ in what they optimise away; Mesa keeps enough for strictness to be right.
-    FrameGraph(ProgramCache& programs, bool software);
+    /// `software`: passes are timed by the host clock.
+    /// `strict`: a declared name that is not active in the program throws; else it is logged once.
+    /// What is active is the driver's decision and depends on the scene (an empty one needs no
+    /// random number), so tests are strict on scenes that use everything and servers are not.
+    FrameGraph(ProgramCache& programs, bool software, bool strict);
 
     /// Starts declaring a frame. A changed extent drops every texture and so every history.
     void begin_frame(Extent extent, std::vector<BlockInput> blocks);

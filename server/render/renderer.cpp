@@ -13,6 +13,7 @@
 #include <mutex>
 #include <spdlog/spdlog.h>
 #include <thread>
+#include <unistd.h>
 
 namespace farlight {
 namespace {
@@ -20,9 +21,19 @@ namespace {
 struct Client {
     std::shared_ptr<FrameSource> source;
     std::unique_ptr<View> view;  ///< Made at the first request, on the render thread.
+    std::size_t view_bytes = 0;  ///< Most that the view may hold.
     bool in_flight = false;
     bool leaving = false;
 };
+
+std::size_t memory_for_views(const RendererOptions& options, bool software)
+{
+    if (options.view_memory != 0)
+        return options.view_memory;
+    const auto physical = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES))
+        * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+    return software ? physical / 2 : std::size_t{8} << 30;
+}
 
 RendererDescription describe(const Context& context, const Scene& scene, const GpuScene& gpu_scene)
 {
@@ -56,6 +67,7 @@ struct Renderer::State {
     Scene scene;
     RendererOptions options;
     RendererDescription description;
+    std::size_t view_memory = 0;  ///< [bytes]
 
     std::mutex mutex;
     std::condition_variable work;  ///< Something may have changed for the render thread.
@@ -72,6 +84,9 @@ struct Renderer::State {
     std::vector<std::shared_ptr<Client>> take_clients();
     bool advance(Client& client, const SharedScene& scene);
     bool alone();
+    bool is_over(const Client& client);
+    std::string failure_message();
+    std::string reserve(Client& client, Extent extent);
     void finish(Client& client);
     void fail(Client& client, const std::string& message);
     void lose_device(const std::string& message);
@@ -89,6 +104,7 @@ void Renderer::State::run(std::promise<void> ready)
         const double radius = description.bounds.empty() ? 1 : description.bounds.radius();
         const SharedScene shared{programs, {gpu_scene.textures(), gpu_scene.defines()},
             scene.background, static_cast<float>(radius), description.software};
+        view_memory = memory_for_views(options, description.software);
         description.default_extent =
             options.extent ? *options.extent : start_extent(shared, scene.camera, options.settings);
         scene.meshes.clear();  // the device has them now
@@ -142,15 +158,19 @@ bool Renderer::State::advance(Client& client, const SharedScene& shared)
     try {
         if (client.in_flight)
             finish(client);
-        {
-            const std::lock_guard lock(mutex);
-            if (client.leaving || stopping || !failure.empty())
-                return busy;
-        }
+        if (is_over(client))
+            return busy;
         const std::optional<RenderRequest> request = client.source->next_request();
         if (!request)
             return busy;
         busy = true;
+        std::string problem = failure_message();
+        if (problem.empty())
+            problem = reserve(client, request->extent);
+        if (!problem.empty()) {
+            fail(client, problem);
+            return busy;
+        }
         if (client.view == nullptr)
             client.view = std::make_unique<View>(shared);
         client.view->begin(*request);
@@ -164,6 +184,36 @@ bool Renderer::State::advance(Client& client, const SharedScene& shared)
         fail(client, error.what());
     }
     return busy;
+}
+
+bool Renderer::State::is_over(const Client& client)
+{
+    const std::lock_guard lock(mutex);
+    return client.leaving || stopping;
+}
+
+std::string Renderer::State::failure_message()
+{
+    const std::lock_guard lock(mutex);
+    return failure;
+}
+
+/// Books memory for the client's view; says why not if there is too little left.
+std::string Renderer::State::reserve(Client& client, Extent extent)
+{
+    const std::size_t wanted = kViewBytesPerPixel * static_cast<std::size_t>(extent.width)
+        * static_cast<std::size_t>(extent.height);
+    const std::lock_guard lock(mutex);
+    std::size_t taken = 0;
+    for (const auto& other : clients)
+        taken += other.get() == &client ? 0 : other->view_bytes;
+    if (taken + wanted > view_memory)
+        return "a picture of " + std::to_string(extent.width) + "x" + std::to_string(extent.height)
+            + " needs " + std::to_string(wanted >> 20) + " MiB, but of the "
+            + std::to_string(view_memory >> 20) + " MiB for all clients only "
+            + std::to_string((view_memory - taken) >> 20) + " MiB are left";
+    client.view_bytes = wanted;
+    return {};
 }
 
 bool Renderer::State::alone()

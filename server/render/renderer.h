@@ -86,6 +86,10 @@ struct RendererOptions {
     std::optional<Extent>
         extent;  ///< Absent: measured so that the first picture moves at 10 frames a second.
     RenderSettings settings;  ///< Defaults of every new client.
+    /// What all views together may hold [bytes]; 0: half of this machine's memory on a software
+    /// device, 8 GiB on hardware. A frame that would need more is refused, with the need and the
+    /// limit in RenderedFrame::error.
+    std::size_t view_memory = 0;
 };
 
 /// Starts the render thread. Thread-safe.

@@ -16,7 +16,7 @@ template <typename T> std::span<const std::byte> object_bytes(const T& object)
 
 View::View(const SharedScene& scene)
     : scene_(scene)
-    , graph_(scene.programs, scene.software)
+    , graph_(scene.programs, scene.software, scene.strict)
     , constants_("frame constants", object_bytes(shared::FrameConstants{}))
     , counters_("counters", object_bytes(std::uint32_t{0}))
 {

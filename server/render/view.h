@@ -18,7 +18,11 @@ struct SharedScene {
     glm::vec3 background{0};
     float radius = 1;  ///< [m]
     bool software = false;
+    bool strict = false;  ///< See FrameGraph.
 };
+
+/// GPU memory a view takes at most, with every stage on, its pixel buffer included [bytes a pixel].
+constexpr std::size_t kViewBytesPerPixel = 512;
 
 /// GL thread only.
 class View {

@@ -68,7 +68,7 @@ protected:
     }
 
     ProgramCache programs;
-    FrameGraph graph{programs, true};
+    FrameGraph graph{programs, true, true};
 };
 
 TEST_F(FrameGraphTest, PassesRunInOrderAndSeeEachOthersWrites)

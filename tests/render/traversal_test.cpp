@@ -105,7 +105,8 @@ TEST_P(TraversalTest, EqualsEmbreeForAHundredThousandRays)
     std::optional<Scene> scene = scene_named(GetParam());
     if (!scene)
         GTEST_SKIP() << "the model is not on this machine";
-    std::erase_if(scene->objects, [](const Object& object) { return !object.framed; });  // a default lamp
+    std::erase_if(
+        scene->objects, [](const Object& object) { return !object.framed; });  // a default lamp
     const TestScene on_device(*scene);
     const PackedScene packed = pack_scene(*scene);
     const EmbreeOracle oracle(packed);

@@ -10,7 +10,7 @@ SharedScene share(ProgramCache& programs, const GpuScene& gpu_scene, const Scene
 {
     const Bounds bounds = scene_bounds(scene);
     return {programs, {gpu_scene.textures(), gpu_scene.defines()}, scene.background,
-        bounds.empty() ? 1.0F : static_cast<float>(bounds.radius()), true};
+        bounds.empty() ? 1.0F : static_cast<float>(bounds.radius()), true, true};
 }
 
 }  // namespace
