@@ -123,7 +123,9 @@ OpenContext open_context(const Candidate& candidate)
         return problem = "a context without a surface cannot be made current", open;
     open.description.name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     open.description.version = reinterpret_cast<const char*>(glGetString(GL_VERSION));
-    if (candidate.device != nullptr && is_software_renderer(open.description.name))
+    // Mesa's surfaceless platform may find hardware that no EGL device stood for.
+    open.description.software = is_software_renderer(open.description.name);
+    if (candidate.device != nullptr && open.description.software)
         problem = "it is a software renderer; --device software uses it";
     return open;
 }

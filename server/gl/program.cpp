@@ -8,21 +8,15 @@
 namespace farlight {
 namespace {
 
-std::string shader_log(GLuint shader)
+/// What the driver says of a shader or a program: the two take different functions for the same
+/// thing.
+template <typename GetInteger, typename GetLog>
+std::string info_log(GLuint object, GetInteger get_integer, GetLog get_log)
 {
     GLint length = 0;
-    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    get_integer(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-    glGetShaderInfoLog(shader, length, nullptr, log.data());
-    return log.c_str();
-}
-
-std::string program_log(GLuint program)
-{
-    GLint length = 0;
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
-    glGetProgramInfoLog(program, length, nullptr, log.data());
+    get_log(object, length, nullptr, log.data());
     return log.c_str();
 }
 
@@ -44,7 +38,7 @@ GLuint compiled(const ShaderSource& source)
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (ok == GL_TRUE)
         return shader;
-    const std::string log = shader_log(shader);
+    const std::string log = info_log(shader, glGetShaderiv, glGetShaderInfoLog);
     glDeleteShader(shader);
     throw ShaderError("cannot compile " + explain_log(source, log));
 }
@@ -77,7 +71,7 @@ Program::Program(const ShaderSource& source) : name_(source.name)
     GLint ok = GL_FALSE;
     glGetProgramiv(id_, GL_LINK_STATUS, &ok);
     if (ok != GL_TRUE) {
-        const std::string log = program_log(id_);
+        const std::string log = info_log(id_, glGetProgramiv, glGetProgramInfoLog);
         glDeleteProgram(id_);
         throw ShaderError("cannot link " + explain_log(source, log));
     }

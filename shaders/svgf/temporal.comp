@@ -88,8 +88,8 @@ void add_tap(Current c, ivec2 q, float weight, inout HistorySum sum)
     }
 }
 
-// 2x2 bilinear taps, each tested; where none holds, the 3x3 neighbourhood.
-HistorySum reproject(Current c, vec2 prev_pixel)
+// 2x2 bilinear taps, each tested; where none holds and there is something to find, the 3x3 neighbourhood.
+HistorySum reproject(Current c, vec2 prev_pixel, bool has_past)
 {
     HistorySum sum = HistorySum(vec3(0.0), vec3(0.0), vec4(0.0), 1e9, 0.0);
     const vec2 corner = floor(prev_pixel - 0.5);
@@ -100,7 +100,7 @@ HistorySum reproject(Current c, vec2 prev_pixel)
         add_tap(c, ivec2(corner) + o, w.x * w.y, sum);
     }
     const ivec2 nearest = ivec2(floor(prev_pixel));
-    const int radius = sum.weight > 0.0 ? -2 : 1;
+    const int radius = has_past && !(sum.weight > 0.0) ? 1 : -2;
     for (int y = -radius; y <= radius; ++y)
         for (int x = -radius; x <= radius; ++x)
             add_tap(c, nearest + ivec2(x, y), 1.0, sum);
@@ -126,8 +126,9 @@ void main()
     const Current c = Current(texelFetch(in_position, px, 0).xyz, unpack_octahedral(identity.z),
         unpack_octahedral(surface.w), identity.xy,
         reproject_depth * frame.prev_camera.pixel_footprint * (depth + motion.z));
-    HistorySum sum = reproject(c, vec2(px) + 0.5 + motion.xy);
-    const bool found = history_valid != 0 && identity.w != 0u && motion.w > 0.0 && sum.weight > 0.0;
+    const bool has_past = history_valid != 0 && identity.w != 0u && motion.w > 0.0;
+    const HistorySum sum = reproject(c, vec2(px) + 0.5 + motion.xy, has_past);
+    const bool found = has_past && sum.weight > 0.0;
 
     vec3 direct = texelFetch(in_direct, px, 0).rgb;
     vec3 indirect = texelFetch(in_indirect, px, 0).rgb;
