@@ -146,6 +146,8 @@ void check_gl(const std::string& where)
     const GLenum error = glGetError();
     if (error != GL_NO_ERROR) {
         while (glGetError() != GL_NO_ERROR) { }
+        if (error == GL_OUT_OF_MEMORY)
+            throw MemoryError(where + ": the device has no memory left for it");
         char code[16];
         std::snprintf(code, sizeof code, "0x%04x", error);
         throw GlError(where + ": OpenGL error " + code);
@@ -171,6 +173,8 @@ Context::Context(std::string_view selector)
             continue;
         OpenContext open = open_context(candidate);
         if (open.description.problem.empty()) {
+            if (!tried.empty())
+                spdlog::info("devices passed over:{}", tried);
             display_ = open.display;
             context_ = open.context;
             device_ = open.description;

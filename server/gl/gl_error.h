@@ -21,7 +21,13 @@ struct GlError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Throws GlError naming `where` if OpenGL has an error pending or the context was reset.
+/// The device has no room for what was asked; everything else goes on.
+struct MemoryError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws MemoryError on GL_OUT_OF_MEMORY, else GlError naming `where` if OpenGL has an error
+/// pending or the context was reset.
 void check_gl(const std::string& where);
 
 }  // namespace farlight

@@ -3,8 +3,6 @@
 
 #include "server/passes/path_trace.h"
 
-#include <optional>
-
 namespace farlight {
 
 /// Everything a view may show; what a frame does not have stays at index -1.
@@ -28,12 +26,11 @@ struct ViewRecipe {
     const char* read_as;
     const char* show_as;
     float scale;
+    TextureHandle second = {};  ///< VIEW_VARIANCE adds the indirect signal's.
 };
 
-/// The recipe of `view`, or nothing where this frame does not have that buffer (no denoiser: no
-/// history).
-inline std::optional<ViewRecipe> recipe_of(
-    DebugView view, const FrameBuffers& b, const ViewScales& scales)
+/// How `view` is shown. Without its buffer (no denoiser: no history) the view is zero everywhere.
+inline ViewRecipe recipe_of(DebugView view, const FrameBuffers& b, const ViewScales& scales)
 {
     const auto recipe = [&]() -> ViewRecipe {
         switch (view) {
@@ -60,15 +57,17 @@ inline std::optional<ViewRecipe> recipe_of(
         case DebugView::kMaterialId: return {b.gbuffer.identity, "VIEW_MATERIAL", "SHOW_ID", 1};
         case DebugView::kMotion: return {b.gbuffer.motion, "VIEW_COLOR", "SHOW_MOTION", 16};
         case DebugView::kVariance:
-            return {b.blended.indirect, "VIEW_ALPHA", "SHOW_RADIANCE", scales.exposure};
+            return {b.blended.direct, "VIEW_VARIANCE", "SHOW_RADIANCE", scales.exposure,
+                b.blended.indirect};
         case DebugView::kHistoryLength:
             return {b.history_length, "VIEW_RED", "SHOW_COUNT", scales.history_max};
         case DebugView::kFinal:
         case DebugView::kSheet: break;
         }
-        return {{}, nullptr, nullptr, 0};
+        return {{}, nullptr, "SHOW_NORMAL", 1};
     }();
-    return recipe.source.index < 0 ? std::nullopt : std::optional(recipe);
+    return recipe.source.index < 0 ? ViewRecipe{{}, "VIEW_NOTHING", recipe.show_as, recipe.scale}
+                                   : recipe;
 }
 
 /// The view's numbers (rgba32f).
@@ -76,10 +75,13 @@ inline TextureHandle add_debug_value(
     FrameGraph& graph, const std::string& name, const ViewRecipe& recipe)
 {
     const TextureHandle value = graph.create(name + ".value", GL_RGBA32F);
-    graph.add_pass(name + " value", "debug_view/value.comp")
-        .define({{recipe.read_as, ""}})
-        .read("in_texture", recipe.source)
-        .write("out_value", value);
+    Pass& pass = graph.add_pass(name + " value", "debug_view/value.comp")
+                     .define({{recipe.read_as, ""}})
+                     .write("out_value", value);
+    if (recipe.source.index >= 0)
+        pass.read("in_texture", recipe.source);
+    if (recipe.second.index >= 0)
+        pass.read("in_second", recipe.second);
     return value;
 }
 
@@ -103,9 +105,8 @@ inline TextureHandle add_debug_display(
 inline TextureHandle add_debug_sheet(
     FrameGraph& graph, const FrameBuffers& buffers, const ViewScales& scales)
 {
-    const ViewRecipe radiance = *recipe_of(DebugView::kRawRadiance, buffers, scales);
     const auto quadrant = [&](DebugView view, const char* name) {
-        const ViewRecipe recipe = recipe_of(view, buffers, scales).value_or(radiance);
+        const ViewRecipe recipe = recipe_of(view, buffers, scales);
         return add_debug_display(graph, name, recipe, add_debug_value(graph, name, recipe));
     };
     const TextureHandle top_left = quadrant(DebugView::kRawRadiance, "sheet radiance");

@@ -18,13 +18,15 @@ std::optional<TextureHandle> add_debug_view(
 {
     const ViewScales scales{
         plan.settings.exposure, plan.scene_radius, static_cast<float>(plan.settings.history_max)};
-    if (plan.settings.view == DebugView::kSheet && !plan.linear_output)
-        return add_debug_sheet(graph, buffers, scales);
-    const std::optional<ViewRecipe> recipe = recipe_of(plan.settings.view, buffers, scales);
-    if (!recipe)
+    // A sheet has no numbers of its own: raw frames of it hold the picture's.
+    if (plan.settings.view == DebugView::kFinal
+        || (plan.settings.view == DebugView::kSheet && plan.linear_output))
         return std::nullopt;
-    const TextureHandle value = add_debug_value(graph, "debug_view", *recipe);
-    return plan.linear_output ? value : add_debug_display(graph, "debug_view", *recipe, value);
+    if (plan.settings.view == DebugView::kSheet)
+        return add_debug_sheet(graph, buffers, scales);
+    const ViewRecipe recipe = recipe_of(plan.settings.view, buffers, scales);
+    const TextureHandle value = add_debug_value(graph, "debug_view", recipe);
+    return plan.linear_output ? value : add_debug_display(graph, "debug_view", recipe, value);
 }
 
 }  // namespace
@@ -35,7 +37,11 @@ TextureHandle build_frame(FrameGraph& graph, const SceneInputs& scene, const Fra
     FrameBuffers buffers;
     buffers.gbuffer = add_gbuffer(graph, scene, settings.denoiser == Denoiser::kSvgf);
     buffers.noisy = add_path_trace(graph, scene, buffers.gbuffer, settings);
-    buffers.raw = add_composite(graph, "composite raw", buffers.gbuffer, buffers.noisy);
+    const bool averages = settings.denoiser == Denoiser::kAccumulate || plan.refine;
+    const bool shows_raw =
+        settings.view == DebugView::kRawRadiance || settings.view == DebugView::kSheet;
+    if (settings.denoiser != Denoiser::kSvgf || averages || shows_raw)
+        buffers.raw = add_composite(graph, "composite raw", buffers.gbuffer, buffers.noisy);
 
     TextureHandle radiance = buffers.raw;
     if (settings.denoiser == Denoiser::kSvgf) {
@@ -44,7 +50,7 @@ TextureHandle build_frame(FrameGraph& graph, const SceneInputs& scene, const Fra
         buffers.history_length = svgf.history_length;
         radiance = add_composite(graph, "composite", buffers.gbuffer, svgf.filtered);
     }
-    if (settings.denoiser == Denoiser::kAccumulate || plan.refine) {
+    if (averages) {
         const TextureHandle mean = add_accumulate(graph, buffers.raw, plan.mean_frames);
         const auto samples = static_cast<float>(plan.mean_frames * settings.samples_per_pixel);
         const float mean_weight =

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <set>
 #include <spdlog/spdlog.h>
 
 namespace farlight {
@@ -155,12 +154,14 @@ void FrameGraph::find_lifetimes()
 void FrameGraph::execute()
 {
     find_lifetimes();
+    barriers_ = 0;
     for (std::size_t i = 0; i < passes_.size(); ++i)
         run(passes_[i], static_cast<int>(i));
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT
         | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT
         | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     dirty_.clear();
+    read_.clear();
     check_gl("frame");
 }
 
@@ -196,6 +197,8 @@ void FrameGraph::run(const Pass& pass, int pass_index)
         if (use.write) {
             resource.written = true;
             dirty_.push_back(resource.texture->id());
+        } else {
+            read_.push_back(resource.texture->id());
         }
         if (resource.transient && !resource.kept && resource.last_pass == pass_index
             && resource.texture != nullptr)
@@ -220,14 +223,19 @@ void FrameGraph::acquire(Resource& resource)
 
 void FrameGraph::place_barrier(const Pass& pass)
 {
+    const auto holds = [](const std::vector<GLuint>& textures, GLuint id) {
+        return std::find(textures.begin(), textures.end(), id) != textures.end();
+    };
     const bool hazard = std::any_of(pass.uses.begin(), pass.uses.end(), [&](const Pass::Use& use) {
-        const auto& texture = resources_[static_cast<std::size_t>(use.texture.index)].texture;
-        return std::find(dirty_.begin(), dirty_.end(), texture->id()) != dirty_.end();
+        const GLuint id = resources_[static_cast<std::size_t>(use.texture.index)].texture->id();
+        return holds(dirty_, id) || (use.write && holds(read_, id));
     });
     if (!hazard)
         return;
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     dirty_.clear();
+    read_.clear();
+    ++barriers_;
 }
 
 void FrameGraph::complain(
@@ -271,13 +279,12 @@ void FrameGraph::check(const Pass& pass, const Program& program) const
 /// Declared by the pass but not active in the shader: a setting that reaches nothing.
 void FrameGraph::check_declared(const Pass& pass, const Program& program) const
 {
-    static std::set<std::string> warned;
     const auto check_name = [&](const std::string& name) {
         if (program.uniforms().contains(name))
             return;
         if (strict_)
             complain(pass, name, "is declared but the shader does not use it");
-        if (warned.insert(pass.name + "/" + name).second)
+        if (warned_.insert(pass.name + "/" + name).second)
             spdlog::debug(
                 "pass '{}': '{}' is declared but not active in {}", pass.name, name, pass.shader);
     };

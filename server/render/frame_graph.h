@@ -16,6 +16,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -111,6 +112,8 @@ public:
     /// Bytes of all textures held, and how many.
     std::size_t texture_bytes() const;
     std::vector<std::string> pass_names() const;
+    /// Barriers between passes of the last executed frame.
+    int barrier_count() const { return barriers_; }
 
 private:
     struct Resource {
@@ -153,6 +156,9 @@ private:
     std::map<std::string, HistoryPair> histories_;
     std::vector<std::shared_ptr<Texture>> pool_;
     std::vector<GLuint> dirty_;  ///< Textures written since the last barrier.
+    std::vector<GLuint> read_;  ///< Textures read since: a write to one must wait too.
+    int barriers_ = 0;
+    mutable std::set<std::string> warned_;
 };
 
 }  // namespace farlight

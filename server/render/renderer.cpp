@@ -35,6 +35,25 @@ std::size_t memory_for_views(const RendererOptions& options, bool software)
     return software ? physical / 2 : std::size_t{8} << 30;
 }
 
+/// Longest a frame may be [path segments]: about a second of a fast GPU, minutes of llvmpipe. One
+/// client's frame is drawn in one go, so this also bounds how long the others wait, and keeps clear
+/// of drivers' watchdogs.
+constexpr double kMostSegments = 1e9;
+
+/// Why a request is too much for one frame, or nothing.
+std::string too_much_work(const RenderRequest& request)
+{
+    const RenderSettings& s = request.settings;
+    const double segments = static_cast<double>(request.extent.width) * request.extent.height
+        * s.samples_per_pixel * s.max_depth;
+    if (segments <= kMostSegments)
+        return {};
+    return "a frame of " + std::to_string(request.extent.width) + "x"
+        + std::to_string(request.extent.height) + " with " + std::to_string(s.samples_per_pixel)
+        + " samples a pixel and " + std::to_string(s.max_depth)
+        + " segments is more than 1e9 path segments: ask for fewer samples a frame";
+}
+
 RendererDescription describe(const Context& context, const Scene& scene, const GpuScene& gpu_scene)
 {
     RendererDescription d;
@@ -80,7 +99,7 @@ struct Renderer::State {
     std::thread thread;
 
     void run(std::promise<void> ready);
-    void serve(const SharedScene& scene);
+    void serve(const SharedScene& scene) noexcept;
     std::vector<std::shared_ptr<Client>> take_clients();
     bool advance(Client& client, const SharedScene& scene);
     bool alone();
@@ -113,7 +132,7 @@ void Renderer::State::run(std::promise<void> ready)
         const std::lock_guard lock(mutex);
         clients.clear();
     } catch (...) {
-        ready.set_exception(std::current_exception());
+        ready.set_exception(std::current_exception());  // serve() throws nothing
     }
 }
 
@@ -131,7 +150,7 @@ std::vector<std::shared_ptr<Client>> Renderer::State::take_clients()
     return clients;
 }
 
-void Renderer::State::serve(const SharedScene& shared)
+void Renderer::State::serve(const SharedScene& shared) noexcept
 {
     for (;;) {
         bool drew = false;
@@ -166,6 +185,8 @@ bool Renderer::State::advance(Client& client, const SharedScene& shared)
         busy = true;
         std::string problem = failure_message();
         if (problem.empty())
+            problem = too_much_work(*request);
+        if (problem.empty())
             problem = reserve(client, request->extent);
         if (!problem.empty()) {
             fail(client, problem);
@@ -177,6 +198,10 @@ bool Renderer::State::advance(Client& client, const SharedScene& shared)
         client.in_flight = true;
         if (shared.software || alone())
             finish(client);  // nobody else's commands to overlap with
+    } catch (const MemoryError& error) {
+        client.view.reset();
+        client.view_bytes = 0;
+        fail(client, error.what());
     } catch (const GlError& error) {
         lose_device(error.what());
         fail(client, error.what());

@@ -31,7 +31,7 @@ void View::follow(const RenderRequest& request)
     if (request.reset_history || request.extent != key_.extent)
         has_history_ = false;
     if (!has_history_)
-        frame_index_ = 0;
+        samples_ = 0;
     const bool same = has_history_ && key == key_;
     const bool averages = request.refine || s.denoiser == Denoiser::kAccumulate;
     still_frames_ = same ? still_frames_ + 1 : 1;
@@ -46,7 +46,7 @@ void View::upload_constants(const RenderRequest& request)
     constants.prev_camera =
         has_history_ ? camera_constants(prev_camera_, request.extent) : constants.camera;
     constants.background = scene_.background;
-    constants.frame_index = frame_index_;
+    constants.first_sample = samples_;
     constants.extent = {request.extent.width, request.extent.height};
     constants.seed = request.settings.seed;
     constants_.update(object_bytes(constants));
@@ -82,7 +82,7 @@ void View::begin(const RenderRequest& request)
         frame_.accumulated_samples >= static_cast<std::uint32_t>(request.settings.still_samples);
     prev_camera_ = request.camera;
     has_history_ = true;
-    ++frame_index_;
+    samples_ += static_cast<std::uint32_t>(request.settings.samples_per_pixel);
 }
 
 RenderedFrame View::finish()

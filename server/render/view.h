@@ -68,7 +68,8 @@ private:
     SampleKey key_;
     CameraPose prev_camera_;
     bool has_history_ = false;
-    std::uint32_t frame_index_ = 0;
+    std::uint32_t samples_ =
+        0;  ///< A pixel, since the cut: no number is used twice when samples_per_pixel changes.
     int still_frames_ = 0;  ///< Frames since the key last changed, with this one.
     int mean_frames_ = 0;  ///< Frames in the running mean, with this one; 0: it does not run.
     RenderedFrame frame_;  ///< Of the frame in flight.

@@ -1,6 +1,7 @@
 // One row an effect. Reasons name the first object that calls for it.
 #include "server/scene/effects.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace farlight {
@@ -12,20 +13,16 @@ bool emits(const Scene& scene, const Object& object)
     return emission.x > 0 || emission.y > 0 || emission.z > 0;
 }
 
-/// "N THINGS, first 'name'" for the objects that `wanted` accepts.
-std::optional<std::string> objects_that(
-    const Scene& scene, const char* things, const std::function<bool(const Object&)>& wanted)
+/// "N THINGS, first 'name'", where the first object that `wanted` accepts gives the name; nothing
+/// for none.
+std::optional<std::string> counted(const Scene& scene, std::size_t count, const char* things,
+    const std::function<bool(const Object&)>& wanted)
 {
-    std::size_t count = 0;
-    const Object* first = nullptr;
-    for (const Object& object : scene.objects)
-        if (wanted(object)) {
-            ++count;
-            first = first == nullptr ? &object : first;
-        }
-    if (first == nullptr)
+    if (count == 0)
         return std::nullopt;
-    return std::to_string(count) + " " + things + ", first '" + first->name + "'";
+    const auto first = std::find_if(scene.objects.begin(), scene.objects.end(), wanted);
+    return std::to_string(count) + " " + things
+        + (first == scene.objects.end() ? "" : ", first '" + first->name + "'");
 }
 
 bool is_sphere(const Object& object)
@@ -33,44 +30,44 @@ bool is_sphere(const Object& object)
     return std::holds_alternative<Sphere>(object.shape);
 }
 
-std::optional<std::string> triangles(const Scene& scene)
+std::optional<std::string> triangles(const Scene& scene, const SceneContent& content)
 {
-    return objects_that(
-        scene, "meshes and quads", [](const Object& object) { return !is_sphere(object); });
+    return counted(scene, content.triangles, "triangles",
+        [](const Object& object) { return !is_sphere(object); });
 }
 
-std::optional<std::string> spheres(const Scene& scene)
+std::optional<std::string> spheres(const Scene& scene, const SceneContent& content)
 {
-    return objects_that(scene, "spheres", is_sphere);
+    return counted(scene, content.spheres, "spheres", is_sphere);
 }
 
-std::optional<std::string> shading_normals(const Scene& scene)
+std::optional<std::string> shading_normals(const Scene& scene, const SceneContent& content)
 {
-    return objects_that(scene, "smooth meshes", [&](const Object& object) {
+    return counted(scene, content.smooth_triangles, "smooth triangles", [&](const Object& object) {
         const auto* instance = std::get_if<MeshInstance>(&object.shape);
         return instance != nullptr && !scene.meshes[instance->mesh].normals.empty();
     });
 }
 
-std::optional<std::string> area_lights(const Scene& scene)
+std::optional<std::string> area_lights(const Scene& scene, const SceneContent& content)
 {
-    return objects_that(
-        scene, "emitters", [&](const Object& object) { return emits(scene, object); });
+    return counted(scene, content.polygon_lights + content.sphere_lights, "emitters",
+        [&](const Object& object) { return emits(scene, object); });
 }
 
-std::optional<std::string> polygon_lights(const Scene& scene)
+std::optional<std::string> polygon_lights(const Scene& scene, const SceneContent& content)
 {
-    return objects_that(scene, "emissive meshes and quads",
+    return counted(scene, content.polygon_lights, "emissive triangles and quads",
         [&](const Object& object) { return !is_sphere(object) && emits(scene, object); });
 }
 
-std::optional<std::string> sphere_lights(const Scene& scene)
+std::optional<std::string> sphere_lights(const Scene& scene, const SceneContent& content)
 {
-    return objects_that(scene, "emissive spheres",
+    return counted(scene, content.sphere_lights, "emissive spheres",
         [&](const Object& object) { return is_sphere(object) && emits(scene, object); });
 }
 
-std::optional<std::string> background(const Scene& scene)
+std::optional<std::string> background(const Scene& scene, const SceneContent& /*content*/)
 {
     const glm::vec3& radiance = scene.background;
     if (radiance == glm::vec3(0))
@@ -95,11 +92,11 @@ const std::vector<Effect>& effect_registry()
     return effects;
 }
 
-std::vector<ActiveEffect> active_effects(const Scene& scene)
+std::vector<ActiveEffect> active_effects(const Scene& scene, const SceneContent& content)
 {
     std::vector<ActiveEffect> active;
     for (const Effect& effect : effect_registry())
-        if (auto reason = effect.reason(scene))
+        if (auto reason = effect.reason(scene, content))
             active.push_back({effect.name, effect.macro, *std::move(reason)});
     return active;
 }

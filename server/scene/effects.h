@@ -12,11 +12,21 @@
 
 namespace farlight {
 
+/// What is left of a scene in world space, in single precision: what has no extent or no power is
+/// not there.
+struct SceneContent {
+    std::size_t triangles = 0;
+    std::size_t smooth_triangles = 0;  ///< With shading normals of their own.
+    std::size_t spheres = 0;
+    std::size_t polygon_lights = 0;
+    std::size_t sphere_lights = 0;
+};
+
 struct Effect {
     std::string_view name;  ///< As shown by `farlight info`.
     std::string_view macro;  ///< Defined in shaders when the scene calls for the effect.
     /// Why the scene calls for it ("4 spheres, first 'ground'"), or nothing.
-    std::optional<std::string> (*reason)(const Scene& scene);
+    std::optional<std::string> (*reason)(const Scene& scene, const SceneContent& content);
 };
 
 /// Every effect known, in a fixed order.
@@ -28,6 +38,6 @@ struct ActiveEffect {
     std::string reason;
 };
 
-std::vector<ActiveEffect> active_effects(const Scene& scene);
+std::vector<ActiveEffect> active_effects(const Scene& scene, const SceneContent& content);
 
 }  // namespace farlight

@@ -1,6 +1,7 @@
 // Walks the node tree of a glTF file: meshes become instances, the first camera the camera.
 #include "server/scene/gltf_file.h"
 
+#include "server/scene/camera_limits.h"
 #include "server/scene/gltf_check.h"
 #include "server/scene/gltf_container.h"
 #include "server/scene/gltf_material.h"
@@ -165,11 +166,18 @@ void Reader::place_camera()
         return;  // a flat transform has no direction
     const Bounds bounds = scene_bounds(result_.scene);
     const double ahead = glm::dot(bounds.center() - position, view);
-    const double distance = ahead > 0 ? ahead : std::max(bounds.radius(), glm::length(position));
+    const double nearest = 2 * nearest_target(position, position);
+    const double distance =
+        ahead > nearest ? ahead : std::max(bounds.radius(), glm::length(position));
+    const double wanted_fov = glm::degrees(found.perspective.yfov);
+    const double fov = std::clamp(wanted_fov, kNarrowestFov, kWidestFov);
+    if (fov != wanted_fov)
+        result_.scene.notes.push_back("the camera's yfov of " + nlohmann::json(wanted_fov).dump()
+            + " degrees is drawn as " + nlohmann::json(fov).dump());
     result_.scene.camera = {.position = position,
         .target = position + distance * view,
         .up = up,
-        .vertical_fov_degrees = glm::degrees(found.perspective.yfov)};
+        .vertical_fov_degrees = fov};
     result_.has_camera = true;
 }
 

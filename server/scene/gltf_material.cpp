@@ -1,14 +1,15 @@
 // Factors only: textures, metalness and roughness are not read.
 #include "server/scene/gltf_material.h"
 
-#include "server/scene/mesh_repair.h"
-
 #include <algorithm>
 #include <tiny_gltf.h>
 
 namespace farlight {
 
 namespace {
+
+/// As in a Farlight scene: its square is still a finite float.
+constexpr double kLargestRadiance = 1e18;
 
 /// KHR_materials_emissive_strength; 1 without it.
 double emissive_strength(const tinygltf::Material& material)
@@ -45,7 +46,7 @@ std::vector<Material> read_gltf_materials(
             found.name.empty() ? "material " + std::to_string(materials.size() - 1) : found.name;
         material.albedo = color(found.pbrMetallicRoughness.baseColorFactor, 1, 1, changed);
         material.emission =
-            color(found.emissiveFactor, emissive_strength(found), kLargestCoordinate, changed);
+            color(found.emissiveFactor, emissive_strength(found), kLargestRadiance, changed);
         material.emits_both_sides = found.doubleSided;
         see_through += found.alphaMode == "OPAQUE" ? 0 : 1;
     }

@@ -48,7 +48,7 @@ void check_bounded(const glm::dmat4& matrix, const ScenePlace& place)
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             if (!(std::abs(matrix[column][row]) <= kLargestCoordinate))
-                refuse(place, "a transform beyond 1e18", "numbers of at most 1e18 in magnitude");
+                refuse(place, "a transform beyond 1e11", "numbers of at most 1e11 in magnitude");
 }
 
 struct Visit {

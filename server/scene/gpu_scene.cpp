@@ -204,6 +204,18 @@ void pack_lights(PackedScene& packed, const std::vector<Light>& lights)
     }
 }
 
+SceneContent content_of(const Flattener& flat)
+{
+    SceneContent content;
+    content.triangles = flat.triangles.size();
+    content.spheres = flat.spheres.size();
+    for (const FlatTriangle& triangle : flat.triangles)
+        content.smooth_triangles += triangle.smooth ? 1 : 0;
+    for (const Light& light : flat.lights)
+        (light.kind == LIGHT_SPHERE ? content.sphere_lights : content.polygon_lights) += 1;
+    return content;
+}
+
 }  // namespace
 
 PackedScene pack_scene(const Scene& scene)
@@ -225,23 +237,22 @@ PackedScene pack_scene(const Scene& scene)
         packed.materials.push_back(texel(material.emission, 0));
     }
     pack_lights(packed, flat.lights);
-    packed.triangle_count = flat.triangles.size();
-    packed.sphere_count = flat.spheres.size();
-    packed.light_count = flat.lights.size();
+    packed.content = content_of(flat);
     packed.dropped_triangles = flat.dropped;
     return packed;
 }
 
-GpuScene::GpuScene(const Scene& scene) : effects_(active_effects(scene))
+GpuScene::GpuScene(const Scene& scene)
 {
     const PackedScene packed = pack_scene(scene);
-    triangle_count_ = packed.triangle_count;
-    light_count_ = packed.light_count;
+    effects_ = active_effects(scene, packed.content);
+    triangle_count_ = packed.content.triangles;
+    light_count_ = packed.light_count();
     dropped_triangles_ = packed.dropped_triangles;
     for (const ActiveEffect& effect : effects_)
         defines_.emplace_back(effect.macro, "1");
     defines_.emplace_back("BVH_STACK_SIZE", std::to_string(packed.stack_depth + 1));
-    defines_.emplace_back("LIGHT_COUNT", std::to_string(packed.light_count) + "u");
+    defines_.emplace_back("LIGHT_COUNT", std::to_string(packed.light_count()) + "u");
     upload("bvh_nodes", packed.bvh_nodes);
     upload("triangles", packed.triangles);
     upload("spheres", packed.spheres);

@@ -22,11 +22,11 @@ struct PackedScene {
     std::vector<glm::uvec4> primitives;
     std::vector<glm::uvec4> materials;
     std::vector<glm::uvec4> lights;
-    std::size_t triangle_count = 0;
-    std::size_t sphere_count = 0;
-    std::size_t light_count = 0;
+    SceneContent content;
     std::size_t dropped_triangles = 0;  ///< Zero area or not finite once in world space.
     int stack_depth = 0;
+
+    std::size_t light_count() const { return content.polygon_lights + content.sphere_lights; }
 };
 
 /// Flattens instances, builds the tree and the light table. Needs no GL.

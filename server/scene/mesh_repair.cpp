@@ -102,7 +102,7 @@ std::vector<std::string> MeshRepairs::notes() const
             counted(zero_area_triangles, "triangle", "triangles") + " of zero area left out");
     if (unbounded_triangles > 0)
         notes.push_back(counted(unbounded_triangles, "triangle", "triangles")
-            + " with a corner that is not finite (or beyond 1e18) left out");
+            + " with a corner that is not finite (or beyond 1e11) left out");
     if (replaced_normals > 0)
         notes.push_back(counted(replaced_normals, "shading normal", "shading normals")
             + " without a direction replaced by the faces around");

@@ -7,8 +7,9 @@
 
 namespace farlight {
 
-/// The largest coordinate that is taken: its square is still a finite float.
-inline constexpr double kLargestCoordinate = 1e18;
+/// The largest coordinate that is taken: a camera that frames objects out to here still stands
+/// within the 1e12 of the protocol.
+inline constexpr double kLargestCoordinate = 1e11;
 
 struct MeshRepairs {
     std::size_t zero_area_triangles = 0;  ///< Dropped.

@@ -19,7 +19,7 @@ struct CameraPose {
     glm::dvec3 position{0, 0, 0};
     glm::dvec3 target{0, 0, -1};
     glm::dvec3 up{0, 1, 0};  ///< Need not be orthogonal to the view; parallel to it is repaired.
-    double vertical_fov_degrees = 45;  ///< In (0, 180).
+    double vertical_fov_degrees = 45;  ///< See camera_limits.h.
 
     bool operator==(const CameraPose&) const = default;
 };

@@ -1,6 +1,8 @@
 // Framing and default light.
 #include "server/scene/scene_defaults.h"
 
+#include "server/scene/camera_limits.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +19,8 @@ CameraPose framing_camera(const Bounds& bounds)
     CameraPose camera;
     camera.vertical_fov_degrees = 45;
     const double half_angle = 0.5 * glm::radians(camera.vertical_fov_degrees);
-    const double distance = bounds.radius() / std::sin(half_angle);  // the sphere just fits
+    const double fits = bounds.radius() / std::sin(half_angle);  // the sphere, and no more
+    const double distance = std::max(fits, 2 * nearest_target(bounds.center(), bounds.center()));
     // Three-quarter view: 32 degrees to the right of +z, 17 degrees up.
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.6, 0.35, 0.95));
     camera.target = bounds.center();

@@ -21,8 +21,8 @@ void check_extent(const Scene& scene)
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(bounds.lower[axis]) <= kLargestCoordinate
                 && std::abs(bounds.upper[axis]) <= kLargestCoordinate))
-            refuse({scene.file, {}}, "objects beyond 1e18 in world space",
-                "coordinates of at most 1e18 in magnitude");
+            refuse({scene.file, {}}, "objects beyond 1e11 in world space",
+                "coordinates of at most 1e11 in magnitude");
 }
 
 }  // namespace
@@ -33,8 +33,8 @@ Scene load_scene(const std::filesystem::path& file)
         GltfScene gltf = load_gltf(file);
         if (!gltf.has_camera)
             add_framing_camera(gltf.scene);
-        add_default_light(gltf.scene);
         check_extent(gltf.scene);
+        add_default_light(gltf.scene);
         return std::move(gltf.scene);
     }
     if (file.extension() != ".json" && !std::filesystem::is_directory(file)

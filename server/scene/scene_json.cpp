@@ -1,6 +1,7 @@
 // Reads a document that fits the schema; what a schema cannot say is checked here.
 #include "server/scene/scene_json.h"
 
+#include "server/scene/camera_limits.h"
 #include "server/scene/json_schema.h"
 #include "server/scene/mesh_file_cache.h"
 #include "server/scene/mesh_repair.h"
@@ -57,10 +58,7 @@ CameraPose read_pose(const Json& value, const CameraPose& before, const ScenePla
     pose.vertical_fov_degrees = value.value("vertical_fov_degrees", before.vertical_fov_degrees);
     if (value.contains("up") && pose.up == glm::dvec3(0))
         refuse(place / "up", describe(value["up"]), "a direction: not all three 0");
-    // As near as two positions can lie before rounding decides where the camera looks.
-    const double nearest = 64 * std::numeric_limits<double>::epsilon()
-        * std::max(glm::length(pose.position), glm::length(pose.target));
-    if (!(glm::length(pose.target - pose.position) > nearest))
+    if (!(glm::length(pose.target - pose.position) > nearest_target(pose.position, pose.target)))
         refuse(place / (value.contains("target") ? "target" : "position"),
             "a camera that stands on its target", "a target away from position");
     return pose;

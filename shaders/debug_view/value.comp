@@ -3,21 +3,24 @@
 //   in   in_texture  any      the buffer (VIEW_* says which and how it is read)
 //   out  out_value   rgba32f  its value
 //
-//   VIEW_COLOR     rgb as it is           VIEW_ALPHA      a of a float texture, thrice
+//   VIEW_COLOR     rgb as it is           VIEW_VARIANCE   a of in_texture plus a of in_second, thrice
 //   VIEW_RED       r, thrice              VIEW_DEPTH      view depth [m], thrice
 //   VIEW_GRADIENT  dz/dx, dz/dy, 0        VIEW_SHADING    shading normal
 //   VIEW_OBJECT    object id              VIEW_MATERIAL   material id
-//   VIEW_GEOMETRIC geometric normal
+//   VIEW_GEOMETRIC geometric normal        VIEW_NOTHING    zero: the frame has no such buffer
 #version 450
 #include "lib/frame.glsl"
 #include "lib/packing.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#if defined(VIEW_COLOR) || defined(VIEW_ALPHA) || defined(VIEW_RED)
+#if defined(VIEW_COLOR) || defined(VIEW_VARIANCE) || defined(VIEW_RED)
 uniform sampler2D in_texture;
-#else
+#elif !defined(VIEW_NOTHING)
 uniform usampler2D in_texture;
+#endif
+#ifdef VIEW_VARIANCE
+uniform sampler2D in_second;
 #endif
 uniform writeonly image2D out_value;
 
@@ -25,8 +28,10 @@ vec3 value_at(ivec2 px)
 {
 #if defined(VIEW_COLOR)
     return texelFetch(in_texture, px, 0).rgb;
-#elif defined(VIEW_ALPHA)
-    return texelFetch(in_texture, px, 0).aaa;
+#elif defined(VIEW_NOTHING)
+    return vec3(0.0);
+#elif defined(VIEW_VARIANCE)
+    return vec3(texelFetch(in_texture, px, 0).a + texelFetch(in_second, px, 0).a);
 #elif defined(VIEW_RED)
     return texelFetch(in_texture, px, 0).rrr;
 #else

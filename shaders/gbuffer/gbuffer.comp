@@ -29,7 +29,10 @@ vec3 depth_and_gradient(vec3 direction, vec3 position, vec3 normal)
     const float n_d = dot(normal, direction);
     const vec3 d_dx = frame.camera.right * (2.0 / float(frame.extent.x));
     const vec3 d_dy = -frame.camera.up * (2.0 / float(frame.extent.y));
-    return vec3(depth, -depth * vec2(dot(normal, d_dx), dot(normal, d_dy)) / n_d);
+    const vec2 gradient = -depth * vec2(dot(normal, d_dx), dot(normal, d_dy)) / n_d;
+    // Seen edge-on the plane's depth changes without bound within a pixel: a thousandfold is as good as infinite.
+    const vec2 bound = vec2(1e3 * depth);
+    return vec3(depth, n_d != 0.0 ? clamp(gradient, -bound, bound) : bound);
 }
 
 // Both projections run the same arithmetic, so a camera at rest gives exactly zero.

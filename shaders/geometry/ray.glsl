@@ -82,8 +82,9 @@ float intersect_sphere(Traversal ray, vec3 center, float radius, float t_max)
         return -1.0;
     precise const float c = dot(f, f) - radius * radius;
     precise const float q = b + (b >= 0.0 ? sqrt(discriminant) : -sqrt(discriminant));
-    const float t_a = min(q, c / q);
-    const float t_b = max(q, c / q);
+    const float other = q != 0.0 ? c / q : 0.0;  // q = 0: the ray grazes the sphere where it starts
+    const float t_a = min(q, other);
+    const float t_b = max(q, other);
     const float t = t_a > 0.0 ? t_a : t_b;
     return t > 0.0 && t < t_max ? t : -1.0;
 }

@@ -18,7 +18,8 @@ struct Surface {
 // where the normal's coordinates are small, but the test's own error is not: it mixes all three axes.
 const float POSITION_ULPS = 16.0 * 5.9604645e-8;
 
-float largest_coordinate(vec3 v) { return max_component(abs(v)); }
+// The offset for a primitive whose coordinates are at most `extent` in magnitude.
+float position_error(vec3 extent) { return POSITION_ULPS * max_component(extent); }
 
 #ifdef FX_TRIANGLES
 void triangle_surface(Hit hit, inout Surface s, out vec3 smooth_normal)
@@ -32,7 +33,7 @@ void triangle_surface(Hit hit, inout Surface s, out vec3 smooth_normal)
     s.primitive = texel.w;
     s.position = (1.0 - b.x - b.y) * v0 + b.x * v1 + b.y * v2;
     s.geometric_normal = normalize(cross(v1 - v0, v2 - v0));
-    s.offset = POSITION_ULPS * largest_coordinate(max(abs(v0), max(abs(v1), abs(v2))));
+    s.offset = position_error(max(abs(v0), max(abs(v1), abs(v2))));
     smooth_normal = s.geometric_normal;
 #ifdef FX_SHADING_NORMALS
     const uvec4 normals = texelFetch(primitives, int(s.primitive) * PRIMITIVE_TEXELS + 1);
@@ -51,7 +52,7 @@ void sphere_surface(Hit hit, Ray ray, inout Surface s)
     s.primitive = texelFetch(spheres, at + 1).x;
     s.geometric_normal = normalize(ray.origin + hit.t * ray.direction - sphere.xyz);
     s.position = sphere.xyz + sphere.w * s.geometric_normal;
-    s.offset = POSITION_ULPS * (largest_coordinate(sphere.xyz) + sphere.w);
+    s.offset = position_error(abs(sphere.xyz) + sphere.w);
 }
 #endif
 

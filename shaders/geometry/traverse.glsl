@@ -5,7 +5,7 @@
 // primitives. The stack holds what the scene's tree can need (BVH_STACK_SIZE, from the builder).
 //
 // Box test: Williams et al. 2005, "An Efficient and Robust Ray-Box Intersection Algorithm"; the far side is
-// widened by 2 ulp as in Ize 2013, "Robust BVH Ray Traversal", so that rounding never loses a box.
+// widened by 3 ulp after Ize 2013, "Robust BVH Ray Traversal", so that rounding never loses a box.
 #pragma once
 #include "geometry/ray.glsl"
 #include "geometry/scene.glsl"

@@ -12,3 +12,5 @@ vec3 counted_finite(vec3 value)
     atomicAdd(nonfinite_count, 1u);
     return vec3(0.0);
 }
+
+vec4 counted_finite(vec4 value) { return vec4(counted_finite(value.xyz), counted_finite(value.www).x); }

@@ -12,11 +12,12 @@ vec3 camera_direction(CameraConstants camera, vec2 pixel)
 }
 
 // Pixel coordinates and view depth of a world position. Meaningless unless the depth is > 0.
+// `precise`: two calls with equal arguments give equal bits, whatever they are inlined into.
 vec3 camera_project(CameraConstants camera, vec3 position_ws)
 {
-    const vec3 v = position_ws - camera.position;
-    const float depth = dot(v, camera.forward);
-    const vec2 ndc = vec2(dot(v, camera.right) / dot(camera.right, camera.right),
+    precise const vec3 v = position_ws - camera.position;
+    precise const float depth = dot(v, camera.forward);
+    precise const vec2 ndc = vec2(dot(v, camera.right) / dot(camera.right, camera.right),
                          -dot(v, camera.up) / dot(camera.up, camera.up)) / depth;
     return vec3((ndc * 0.5 + 0.5) * vec2(frame.extent), depth);
 }

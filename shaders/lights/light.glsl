@@ -1,6 +1,6 @@
 // Sampling area lights with probability proportional to their power, and the density of doing so.
 #pragma once
-#include "geometry/scene.glsl"
+#include "geometry/surface.glsl"
 #include "lib/sampling.glsl"
 
 #ifdef FX_LIGHTS
@@ -41,13 +41,16 @@ Light choose_light(float u)
 }
 
 struct LightSample {
-    vec3 wi;         // unit, from the shading point to the light
-    float distance;  // [m]
-    float pdf;       // per solid angle [1/sr], 0: nothing was sampled
-    float cos_light; // between the light's own normal and the way back; negative behind it
+    vec3 wi;          // unit, from the shading point to the light
+    float pdf;        // per solid angle [1/sr], 0: nothing was sampled
+    vec3 position;    // on the light [m]
+    float cos_light;  // between the light's own normal and the way back; negative behind it
+    vec3 normal;      // the light's own, unit
+    float offset;     // how far off the light a ray to it must end [m]
 };
 
-const LightSample NO_LIGHT_SAMPLE = LightSample(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
+const LightSample NO_LIGHT_SAMPLE
+    = LightSample(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), 0.0);
 
 // 1 - cos of the half angle under which a sphere is seen, from (radius / distance)^2, without cancellation.
 float cone_opening(float sin2) { return sin2 / (1.0 + sqrt(max(0.0, 1.0 - sin2))); }
@@ -68,7 +71,10 @@ LightSample sample_sphere_light(Light light, vec3 position, vec2 u)
     s.wi = basis_around(to_center * inversesqrt(distance2)) * local;
     const float sin2_theta = local.x * local.x + local.y * local.y;
     const float along = local.z * sqrt(distance2);
-    s.distance = along - sqrt(max(0.0, radius * radius - distance2 * sin2_theta));
+    const float distance = along - sqrt(max(0.0, radius * radius - distance2 * sin2_theta));
+    s.normal = normalize(position + distance * s.wi - light.p0);
+    s.position = light.p0 + radius * s.normal;
+    s.offset = position_error(abs(light.p0) + radius);
     s.pdf = 1.0 / (2.0 * PI * opening);
     s.cos_light = 1.0;
     return s;
@@ -83,13 +89,16 @@ float area_to_solid_angle(float area, float distance, float cos_light)
 LightSample sample_polygon_light(Light light, vec3 position, vec2 u)
 {
     const vec2 st = light.kind == LIGHT_TRIANGLE ? sample_triangle(u) : u;
-    const vec3 v = light.p0 + st.x * light.edge_u + st.y * light.edge_v - position;
     LightSample s;
-    s.distance = length(v);
-    s.wi = v / s.distance;
-    s.cos_light = -dot(normalize(cross(light.edge_u, light.edge_v)), s.wi);
-    s.pdf = area_to_solid_angle(light.area, s.distance, s.cos_light);
-    if (!(s.distance > 0.0 && is_finite(s.pdf)))
+    s.position = light.p0 + st.x * light.edge_u + st.y * light.edge_v;
+    s.normal = normalize(cross(light.edge_u, light.edge_v));
+    s.offset = position_error(abs(light.p0) + abs(light.edge_u) + abs(light.edge_v));
+    const vec3 v = s.position - position;
+    const float distance = length(v);
+    s.wi = v / distance;
+    s.cos_light = -dot(s.normal, s.wi);
+    s.pdf = area_to_solid_angle(light.area, distance, s.cos_light);
+    if (!(distance > 0.0 && is_finite(s.pdf)))
         return NO_LIGHT_SAMPLE;
     return s;
 }

@@ -39,9 +39,6 @@ struct Vertex {
 };
 
 #ifdef FX_LIGHTS
-// Shadow rays stop this fraction of their length before the light's own surface.
-const float SHADOW_LENGTH = 1.0 - 1e-4;
-
 // Incident radiance of one light sample times cosine over pi, divided by its density and weighted against the
 // chance that the BSDF sample finds the same light.
 vec3 sample_direct(Vertex v, vec4 u)
@@ -53,8 +50,13 @@ vec3 sample_direct(Vertex v, vec4 u)
     const vec3 radiance = emitted(load_material(light.material), s.cos_light > 0.0);
     const float pdf_bsdf = diffuse_pdf(cos_surface);
     const bool useful = s.pdf > 0.0 && pdf_bsdf > 0.0 && above && max_component(radiance) > 0.0;
-    const Ray ray = Ray(offset_origin(v.position, v.geometric_normal, v.offset, s.wi), s.wi);
-    const bool blocked = any_hit(ray, useful ? s.distance * SHADOW_LENGTH : 0.0);
+    // Both ends are offset off their surfaces, each by its own rounding error, and the ray runs between them.
+    const vec3 from = offset_origin(v.position, v.geometric_normal, v.offset, s.wi);
+    const vec3 to = offset_origin(s.position, s.normal, s.offset, -s.wi);
+    const vec3 way = to - from;
+    const float distance = length(way);
+    const bool ahead = dot(way, s.wi) > 0.0;
+    const bool blocked = any_hit(Ray(from, way / distance), useful && ahead ? distance : 0.0);
     return useful && !blocked ? radiance * (pdf_bsdf / s.pdf * power_heuristic(s.pdf, pdf_bsdf)) : vec3(0.0);
 }
 #endif
@@ -135,7 +137,7 @@ void main()
     const bool met = uintBitsToFloat(surface.x) > 0.0;
     int i = met && max_depth > 1 ? 0 : samples_per_pixel;
     while (i < samples_per_pixel) {
-        const uint sample_index = frame.frame_index * uint(samples_per_pixel) + uint(i);
+        const uint sample_index = frame.first_sample + uint(i);
         trace_path(first, uvec2(px), sample_index, direct, indirect);
         ++i;
     }

@@ -23,7 +23,7 @@ struct FrameConstants {
     CameraConstants prev_camera;  // last frame's; equals camera when there was none
 
     vec3 background;  // radiance of a ray that leaves the scene [W/(m^2 sr)]
-    uint frame_index;  // frames since the view was cut; with seed the source of all randomness
+    uint first_sample;  // samples a pixel since the view was cut; with seed the source of all randomness
 
     uvec2 extent;  // render resolution [px]
     uint seed;

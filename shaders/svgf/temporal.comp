@@ -16,6 +16,7 @@
 // length is the least of the taps used.
 #version 450
 #include "svgf/surface.glsl"
+#include "lib/counters.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -146,8 +147,9 @@ void main()
         indirect = old_indirect + alpha * (indirect - old_indirect);
     }
 
-    imageStore(out_direct, px, vec4(direct, moments.y));
-    imageStore(out_indirect, px, vec4(indirect, moments.w));
+    moments = counted_finite(moments);
+    imageStore(out_direct, px, vec4(counted_finite(direct), moments.y));
+    imageStore(out_indirect, px, vec4(counted_finite(indirect), moments.w));
     imageStore(out_moments, px, moments);
     imageStore(out_length, px, vec4(identity.w != 0u ? length : 0.0));
 }

@@ -180,6 +180,56 @@ INSTANTIATE_TEST_SUITE_P(AnalyticScenes, IrradianceTest,
         IrradianceCase{"SphereVeryNear", 1.257843, {"light", 0, sphere_at_angle(1.2, 1, 1.0)}, 64}),
     [](const auto& test) { return test.param.name; });
 
+// A lamp two units above a floor: light sampling and chance must agree however large the floor is
+// and wherever it stands, although the floor's rays start off it by an error that grows with its
+// coordinates.
+struct LampCase {
+    const char* name;
+    double half_extent;
+    double away;
+    bool sphere;
+
+    friend void PrintTo(const LampCase& c, std::ostream* out) { *out << c.name; }
+};
+
+class LampTest : public GlTest, public testing::WithParamInterface<LampCase> { };
+
+TEST_P(LampTest, LightSamplingAgreesWithChanceHits)
+{
+    const auto& [name, half, away, sphere] = GetParam();
+    const glm::dvec3 at(away, 0, -away);
+    Scene scene;
+    scene.materials = {{"floor", glm::vec3(0.5F)}, {"light", glm::vec3(0), glm::vec3(1)}};
+    scene.objects.push_back(
+        {"floor", 0, Quad{at + glm::dvec3(-half, 0, -half), {0, 0, 2 * half}, {2 * half, 0, 0}}});
+    if (sphere)
+        scene.objects.push_back({"light", 1, Sphere{at + glm::dvec3(0, 2, 0), 0.5}});
+    else
+        scene.objects.push_back(
+            {"light", 1, Quad{at + glm::dvec3(-0.5, 2, -0.5), {1, 0, 0}, {0, 0, 1}}});
+    scene.camera = {at + glm::dvec3(1.5, 1, 1.5), at, {0, 1, 0}, 30};
+    const TestScene on_device(scene);
+    Estimate estimates[2];
+    for (const bool light_sampling : {false, true}) {
+        RenderSettings s;
+        s.max_depth = 2;
+        s.samples_per_pixel = 256;
+        s.light_sampling = light_sampling;
+        estimates[light_sampling] =
+            mean_of(accumulate(on_device, linear_request(scene, {32, 32}, s), 2));
+    }
+    const double error = std::hypot(estimates[0].standard_error, estimates[1].standard_error);
+    EXPECT_NEAR(estimates[1].mean, estimates[0].mean, 5 * error);
+    EXPECT_GT(estimates[1].mean, 0.01);
+}
+
+INSTANTIATE_TEST_SUITE_P(AnalyticScenes, LampTest,
+    testing::Values(LampCase{"SmallFloor", 3, 0, false}, LampCase{"LargeFloor", 1e3, 0, false},
+        LampCase{"HugeFloor", 1e4, 0, false}, LampCase{"FarAway", 3, 1e3, false},
+        LampCase{"VeryFarAway", 3, 1e4, false}, LampCase{"SphereOverHugeFloor", 1e4, 0, true},
+        LampCase{"SphereFarAway", 3, 1e4, true}),
+    [](const auto& test) { return test.param.name; });
+
 /// A white sphere that reflects everything under a uniform sky of 1 disappears: every path
 /// returns 1.
 TEST_F(GlTest, WhiteSphereUnderAWhiteSkyDisappears)

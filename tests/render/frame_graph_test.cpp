@@ -93,6 +93,30 @@ TEST_F(FrameGraphTest, TransientMemoryIsReused)
     EXPECT_EQ(graph.texture_bytes(), 2U * 16 * kExtent.width * kExtent.height);
 }
 
+/// Memory that a pass still reads is written again only behind a barrier, even if the writer reads
+/// nothing of it.
+TEST_F(FrameGraphTest, AWriteWaitsForReadersOfTheMemoryItReuses)
+{
+    const TextureHandle a = filled(1);
+    const TextureHandle sum = plus(a, 1);  // reads a, whose memory is free from here on
+    const TextureHandle b = filled(5);  // takes it
+    graph.keep(sum);
+    graph.keep(b);
+    graph.execute();
+    EXPECT_EQ(graph.barrier_count(), 2);  // before `add` reads a, before `fill` writes over it
+    EXPECT_EQ(value_of(sum), 2);
+    EXPECT_EQ(value_of(b), 5);
+}
+
+TEST_F(FrameGraphTest, PassesThatShareNothingNeedNoBarrier)
+{
+    filled(1);
+    graph.keep(filled(2));
+    graph.keep(filled(3));
+    graph.execute();
+    EXPECT_LE(graph.barrier_count(), 1);  // the first texture's memory may be reused
+}
+
 TEST_F(FrameGraphTest, HistoryIsLastFramesCurrent)
 {
     for (int frame = 0; frame < 5; ++frame) {

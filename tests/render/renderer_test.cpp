@@ -26,6 +26,7 @@ public:
         RenderRequest request;
         request.camera = {{0, 0.3, 1.95}, {0, 0, 0}, {0, 1, 0}, 70};
         request.extent = extent_;
+        request.settings = settings;
         return request;
     }
     void frame_done(RenderedFrame frame) override
@@ -43,6 +44,7 @@ public:
     }
 
     std::function<void()> before_request;  ///< Runs on the render thread.
+    RenderSettings settings;
 
 private:
     const Extent extent_;
@@ -123,6 +125,17 @@ TEST_F(GlTest, ViewsStayWithinTheMemoryTheyAreBookedFor)
         view.graph().texture_bytes() + std::size_t{16} * 64 * 64, kViewBytesPerPixel * 64 * 64);
 }
 
+TEST(RendererTest, AFrameOfMoreThanABillionSegmentsIsRefused)
+{
+    Renderer renderer(room(), small_options());
+    auto source = std::make_shared<CountingSource>(Extent{1024, 1024}, 1);
+    source->settings.samples_per_pixel = 1024;
+    renderer.attach(source);
+    EXPECT_NE(
+        source->wait_for_all().at(0).error.find("more than 1e9 path segments"), std::string::npos);
+    EXPECT_EQ(attach(renderer, {8, 8}, 1)->wait_for_all().at(0).error, "");
+}
+
 /// An OpenGL error ends in a message and a renderer that says it failed, never in garbage.
 TEST(RendererTest, AnOpenGlErrorIsToldAndNothingMoreIsDrawn)
 {
@@ -158,7 +171,12 @@ TEST(RendererTest, EmptyBackgroundOnlyAndSingleObjectScenesDraw)
     lamp.objects.push_back({"lamp", 0, Sphere{}});
     Scene lit_by_sky = scene_of(bumpy_sphere(12, 6));
     lit_by_sky.background = glm::vec3(1);
-    for (const Scene& scene : {nothing, sky, lamp, lit_by_sky}) {
+    Scene vanishing = lamp;  // what rounds to nothing in single precision is not there
+    vanishing.objects.push_back({"far", 0, Quad{{1e10, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}}});
+    Scene dark = sky;
+    dark.materials.push_back({"light", glm::vec3(0), glm::vec3(1)});
+    dark.objects.push_back({"no area", 0, Sphere{{0, 0, 0}, 1e-25}});
+    for (const Scene& scene : {nothing, sky, lamp, lit_by_sky, vanishing, dark}) {
         Renderer renderer(scene, small_options());
         for (const Extent extent : {Extent{1, 1}, Extent{1, 33}, Extent{31, 17}}) {
             const auto frames = attach(renderer, extent, 2)->wait_for_all();

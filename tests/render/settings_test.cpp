@@ -168,5 +168,24 @@ TEST_F(SettingsReachTheImage, EveryDebugViewDraws)
             }
 }
 
+/// A buffer that the frame does not have reads zero, never another picture.
+TEST_F(SettingsReachTheImage, AViewWithoutItsBufferIsZero)
+{
+    Scene scene = room_with(bumpy_sphere(24, 12));
+    const TestScene on_device(scene);
+    for (const char* view_name : {"variance", "history_length"})
+        for (const char* denoiser : {"none", "svgf"}) {
+            View view(on_device.shared);
+            RenderRequest request = linear_request(scene, {16, 16}, {});
+            set_setting(request.settings, "view", view_name);
+            set_setting(request.settings, "denoiser", denoiser);
+            view.render(request);
+            const Image image = view.render(request).image;
+            const bool zero = std::all_of(image.bytes.begin(), image.bytes.end(),
+                [](std::byte b) { return b == std::byte{0}; });
+            EXPECT_EQ(zero, std::string_view(denoiser) == "none") << view_name;
+        }
+}
+
 }  // namespace
 }  // namespace farlight

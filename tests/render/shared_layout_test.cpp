@@ -51,7 +51,7 @@ void main() { results[0] = vec4(frame.camera.position, 0.0); }
             expected["frame." + std::string(camera) + "." + member] =
                 static_cast<GLint>(base + offset);
     expected["frame.background"] = offsetof(FrameConstants, background);
-    expected["frame.frame_index"] = offsetof(FrameConstants, frame_index);
+    expected["frame.first_sample"] = offsetof(FrameConstants, first_sample);
     expected["frame.extent"] = offsetof(FrameConstants, extent);
     expected["frame.seed"] = offsetof(FrameConstants, seed);
     expected["frame.pad0"] = offsetof(FrameConstants, pad0);

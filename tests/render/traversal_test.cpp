@@ -88,6 +88,8 @@ std::optional<Scene> scene_named(const std::string& name)
     const std::string root = FARLIGHT_SOURCE_DIR;
     if (name == "soup")
         return scene_of(triangle_soup(20'000, 5));
+    if (name == "fine_soup")
+        return scene_of(triangle_soup(100'000, 6));
     if (name == "bumps")
         return scene_of(bumpy_sphere(250, 140));
     if (name == "cornell_box" || name == "mesh")
@@ -137,7 +139,7 @@ TEST_P(TraversalTest, EqualsEmbreeForAHundredThousandRays)
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, TraversalTest,
-    testing::Values("cornell_box", "mesh", "balloon", "bumps", "soup"),
+    testing::Values("cornell_box", "mesh", "balloon", "bumps", "soup", "fine_soup"),
     [](const auto& test) { return std::string(test.param); });
 
 class LeakTest : public GlTest, public testing::WithParamInterface<float> { };
@@ -156,7 +158,7 @@ TEST_P(LeakTest, NoRaySlipsBetweenTriangles)
     for (int batch = 0; batch < 10; ++batch) {
         std::vector<TestRay> rays;
         for (int i = 0; i < 100'000; ++i) {
-            const auto first = static_cast<std::size_t>(3 * (random() % packed.triangle_count));
+            const auto first = static_cast<std::size_t>(3 * (random() % packed.content.triangles));
             const auto vertex = [&](std::size_t k) {
                 return glm::uintBitsToFloat(glm::uvec3(packed.triangles[first + k]));
             };

@@ -164,9 +164,9 @@ TEST(LightsTest, EmittersWithoutPowerOrAreaAreNotLights)
     scene.objects.push_back({"half degenerate", 1, MeshInstance{0, glm::dmat4(1)}});
     scene.objects.push_back({"bright ball", 1, Sphere{{5, 0, 0}, 1}});
     const PackedScene packed = pack_scene(scene);
-    EXPECT_EQ(packed.light_count, 2U);
+    EXPECT_EQ(packed.light_count(), 2U);
     EXPECT_EQ(packed.dropped_triangles, 1U);
-    EXPECT_EQ(packed.triangle_count, 3U);
+    EXPECT_EQ(packed.content.triangles, 3U);
 }
 
 }  // namespace

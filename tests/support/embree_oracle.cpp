@@ -18,7 +18,7 @@ RTCRay embree_ray(const TestRay& ray)
 
 EmbreeOracle::EmbreeOracle(const PackedScene& packed)
 {
-    const std::size_t count = packed.triangle_count;
+    const std::size_t count = packed.content.triangles;
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), 3 * count));
