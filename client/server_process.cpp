@@ -79,7 +79,7 @@ void ServerProcess::start(
     if (pid_ != 0)
         return;
     // In the child: only calls that are safe after fork.
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody is left to drain for
     if (getppid() != parent)
         _exit(1);
     dup2(output_, STDOUT_FILENO);

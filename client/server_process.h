@@ -24,7 +24,7 @@ class ServerProcess {
 public:
     /// Starts `program arguments...` and waits for its line
     /// `farlight-server: listening on http://HOST:PORT/`. Throws ServerProcessError.
-    /// The server is also ended when this process is killed.
+    /// The server is also killed when this process is.
     ServerProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
         std::chrono::milliseconds timeout = std::chrono::minutes(2));
     /// SIGTERM; SIGKILL when that has no effect for some seconds.
