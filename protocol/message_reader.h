@@ -22,8 +22,12 @@ concept Fielded = requires(T value)
     T::each_field(value, [](auto&&...) {});
 };
 
+/// Whole numbers without a fraction, as the limits of integers are to be read.
 inline std::string number_text(double value)
 {
+    constexpr double kExact = 1LL << 53;
+    if (std::abs(value) <= kExact && std::trunc(value) == value)
+        return std::to_string(static_cast<std::int64_t>(value));
     return Json(value).dump();
 }
 
