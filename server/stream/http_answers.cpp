@@ -26,6 +26,14 @@ std::string_view view(boost::beast::string_view text)
     return {text.data(), text.size()};
 }
 
+/// Of a snapshot, unless the server's default is larger: everybody waits while it is drawn.
+constexpr Extent kLargestSnapshot{1280, 720};
+
+std::int64_t pixels_of(Extent extent)
+{
+    return static_cast<std::int64_t>(extent.width) * extent.height;
+}
+
 bool offers_subprotocol(const HttpRequest& request)
 {
     const http::token_list offered(request[field::sec_websocket_protocol]);
@@ -179,6 +187,10 @@ std::optional<HttpResponse> refuse_upgrade(const HttpRequest& request, Hub& hub)
 
 std::variant<RenderRequest, HttpResponse> snapshot_request(const HttpRequest& request, Hub& hub)
 {
+    // An <img> in any page sends no Origin, but browsers say where it comes from.
+    if (boost::beast::iequals(request["Sec-Fetch-Site"], "cross-site"))
+        return make_answer(
+            request, status::forbidden, "pages from other sites may not ask for pictures\n");
     RenderRequest wanted = hub.session_defaults->request;
     for (const auto& [key, value] : parse_target(view(request.target())).query) {
         const std::optional<std::uint32_t> number = number_in(value);
@@ -192,6 +204,12 @@ std::variant<RenderRequest, HttpResponse> snapshot_request(const HttpRequest& re
     if (const auto problem = refuse_extent(static_cast<std::uint64_t>(wanted.extent.width),
             static_cast<std::uint64_t>(wanted.extent.height), hub.session_defaults->max_dimension))
         return make_answer(request, status::bad_request, *problem + "\n");
+    const std::int64_t most =
+        std::max(pixels_of(hub.session_defaults->request.extent), pixels_of(kLargestSnapshot));
+    if (pixels_of(wanted.extent) > most)
+        return make_answer(request, status::bad_request,
+            "found " + std::to_string(pixels_of(wanted.extent)) + " pixels, expected at most "
+                + std::to_string(most) + " in a snapshot\n");
     const std::string why = hub.not_ready();
     if (why.empty() && !hub.snapshot)
         return wanted;

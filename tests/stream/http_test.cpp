@@ -146,6 +146,29 @@ TEST(Http, SnapshotRefusesSizesItCannotDraw)
             << query;
 }
 
+TEST(Http, SnapshotHasNoMorePixelsThanItsLimit)
+{
+    ServerUnderTest server;  // whose default size is smaller
+    const HttpReply most = http_request(server.port(), "/snapshot.png?width=720&height=1280");
+    EXPECT_EQ(size_of_png(most.body()), (Extent{720, 1280}));
+    const HttpReply more = http_request(server.port(), "/snapshot.png?width=1281&height=720");
+    EXPECT_EQ(more.result_int(), 400);
+    EXPECT_EQ(more.body(), "found 922320 pixels, expected at most 921600 in a snapshot\n");
+}
+
+TEST(Http, SnapshotIsNotForOtherSitesPages)
+{
+    ServerUnderTest server;
+    const auto status_for = [&](const char* site) {
+        return http_request(server.port(), "/snapshot.png", verb::get, {{"Sec-Fetch-Site", site}})
+            .result_int();
+    };
+    EXPECT_EQ(status_for("cross-site"), 403);
+    EXPECT_EQ(server.renderer().frames_rendered(), 0U);
+    EXPECT_EQ(status_for("same-origin"), 200);
+    EXPECT_EQ(status_for("none"), 200) << "typed into the address bar";
+}
+
 TEST(Http, SnapshotPassesOnWhyDrawingFailed)
 {
     ServerUnderTest server;
