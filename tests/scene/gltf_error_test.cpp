@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Nodes, BadGltfTest,
         BadGltf{"NoRotation", "/nodes/0/rotation", "[0, 0, 0, 0]",
             "/nodes/0/rotation: found a quaternion of no length, expected a unit quaternion"},
         BadGltf{"TooFar", "/nodes/0/translation", "[1e300, 0, 0]",
-            "/nodes/0: found a transform beyond 1e18, expected numbers of at most 1e18 in "
+            "/nodes/0: found a transform beyond 1e11, expected numbers of at most 1e11 in "
             "magnitude"}),
     kName);
 

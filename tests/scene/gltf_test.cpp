@@ -286,7 +286,7 @@ TEST_F(GltfTest, BadTrianglesAreDroppedAndCounted)
         ElementsAre(glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
     EXPECT_THAT(scene.notes, Contains("1 triangle of zero area left out"));
     EXPECT_THAT(scene.notes,
-        Contains("2 triangles with a corner that is not finite (or beyond 1e18) left out"));
+        Contains("2 triangles with a corner that is not finite (or beyond 1e11) left out"));
 }
 
 TEST_F(GltfTest, BuffersBesideTheFileAndInDataUris)

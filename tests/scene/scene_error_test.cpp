@@ -49,7 +49,7 @@ TEST_P(BadSceneTest, SaysWhereAndWhy)
 }
 
 const char* const kMaterials = "one of white";
-const char* const kPoint = "three numbers [x, y, z], at most 1e18 in magnitude";
+const char* const kPoint = "three numbers [x, y, z], at most 1e11 in magnitude";
 
 std::string object(const std::string& shape)
 {
@@ -107,11 +107,10 @@ INSTANTIATE_TEST_SUITE_P(Camera, BadSceneTest,
         BadScene{"NoUp", R"({"camera": {"up": [0, 0, 0]}})",
             "/camera/up: found [0,0,0], expected a direction: not all three 0"},
         BadScene{"FovZero", R"({"camera": {"vertical_fov_degrees": 0}})",
-            "/camera/vertical_fov_degrees: found 0, expected an angle in degrees, greater than 0 "
-            "and less than 180"},
+            "/camera/vertical_fov_degrees: found 0, expected an angle from 0.001 to 179 degrees"},
         BadScene{"FovStraight", R"({"camera": {"vertical_fov_degrees": 180}})",
-            "/camera/vertical_fov_degrees: found 180, expected an angle in degrees, greater than "
-            "0 and less than 180"},
+            "/camera/vertical_fov_degrees: found 180, expected an angle from 0.001 to 179 "
+            "degrees"},
         BadScene{"NoPosition", R"({"camera": {"position": null}})",
             "/camera: found no key \"position\", expected a camera: an object with position, "
             "target, up, vertical_fov_degrees"},
@@ -153,7 +152,7 @@ const std::string kOneShape =
 const std::string kOneBox =
     "/box: found an object, expected a box: an object with either center and size (and "
     "rotation_degrees) or lower and upper";
-const std::string kRadius = "expected a number greater than 0 and at most 1e18";
+const std::string kRadius = "expected a number greater than 0 and at most 1e11";
 
 INSTANTIATE_TEST_SUITE_P(Shapes, BadObjectTest,
     testing::Values(BadObject{"NoShape", R"("name": "a")", kOneShape},
@@ -169,8 +168,8 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BadObjectTest,
             "/sphere/radius: found -1, " + kRadius},
         BadObject{"RadiusText", R"("sphere": {"center": [0,0,0], "radius": "big"})",
             "/sphere/radius: found \"big\", " + kRadius},
-        BadObject{"CenterTooFar", R"("sphere": {"center": [0,1e19,0], "radius": 1})",
-            std::string("/sphere/center: found [0,1e+19,0], expected ") + kPoint},
+        BadObject{"CenterTooFar", R"("sphere": {"center": [0,2e11,0], "radius": 1})",
+            std::string("/sphere/center: found [0,200000000000.0,0], expected ") + kPoint},
         BadObject{"QuadOfNoArea",
             R"("quad": {"corner": [0,0,0], "edge_u": [1,1,0], "edge_v": [2,2,0]})",
             "/quad: found a quad of no area: edge_u [1,1,0], edge_v [2,2,0], expected edges that "
@@ -181,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BadObjectTest,
             "are not 0 and not parallel"},
         BadObject{"FlatBox", R"("box": {"center": [0,0,0], "size": [1,0,1]})",
             "/box/size: found [1,0,1], expected three numbers [x, y, z], greater than 0 and at "
-            "most 1e18"},
+            "most 1e11"},
         BadObject{"BoxBothWays", R"("box": {"center": [0,0,0], "size": [1,1,1], "lower": [0,0,0]})",
             kOneBox},
         BadObject{"BoxInsideOut", R"("box": {"lower": [0,0,0], "upper": [1,-1,1]})",
@@ -226,9 +225,9 @@ TEST(SceneErrors, AnObjectNeedsAMaterialUnlessItsFileBringsOne)
 TEST(SceneErrors, CoordinatesThatAddUpBeyondTheLimit)
 {
     Json scene = Json::parse(kGood);
-    scene["objects"][0]["sphere"] = {{"center", {9e17, 0, 0}}, {"radius", 2e17}};
+    scene["objects"][0]["sphere"] = {{"center", {9e10, 0, 0}}, {"radius", 2e10}};
     EXPECT_EQ(refusal_of(scene.dump()),
-        "found objects beyond 1e18 in world space, expected coordinates of at most 1e18 in "
+        "found objects beyond 1e11 in world space, expected coordinates of at most 1e11 in "
         "magnitude");
 }
 
