@@ -32,9 +32,4 @@ private:
     std::size_t size_ = 0;
 };
 
-template <typename T> std::span<const std::byte> bytes_of(std::span<const T> values)
-{
-    return std::as_bytes(values);
-}
-
 }  // namespace farlight

@@ -136,11 +136,10 @@ void Renderer::State::run(std::promise<void> ready)
     }
 }
 
-/// Drops leaving clients, and gives the ones to serve this round. Waits while there is nothing to
-/// do.
+/// Drops leaving clients, and gives the ones to serve this round.
 std::vector<std::shared_ptr<Client>> Renderer::State::take_clients()
 {
-    std::unique_lock lock(mutex);
+    const std::lock_guard lock(mutex);
     const auto gone = std::remove_if(
         clients.begin(), clients.end(), [](const auto& client) { return client->leaving; });
     if (gone != clients.end()) {

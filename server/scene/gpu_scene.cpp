@@ -270,7 +270,7 @@ void GpuScene::upload(const std::string& name, const std::vector<glm::uvec4>& te
     if (texels.size() > static_cast<std::size_t>(limit))
         throw GlError("the scene needs " + std::to_string(texels.size()) + " texels for '" + name
             + "', but this device allows " + std::to_string(limit) + " in a buffer texture");
-    buffers_.emplace_back(name, bytes_of(std::span<const glm::uvec4>(texels)));
+    buffers_.emplace_back(name, std::as_bytes(std::span<const glm::uvec4>(texels)));
     textures_[name] = buffers_.back().texture(GL_RGBA32UI);
     check_gl("uploading '" + name + "'");
 }

@@ -29,8 +29,8 @@ struct Light {
 /// Luminance of linear Rec. 709 RGB.
 double luminance(const glm::dvec3& rgb);
 
-/// Fills power; lights of no power or no area are dropped by fill_alias_table's caller, never
-/// chosen.
+/// Luminance of the flux the light emits [W]; 0 for what has no area or emits nothing, which must
+/// not become a light.
 double light_power(const Light& light, const Material& material);
 
 /// Vose's alias method over `power`, in double precision. Every light must have power > 0.
