@@ -93,6 +93,8 @@ private:
         add_triangle({{p0, uv, v}, {}, object_, index});
     }
 
+    void add(const Disk& /*disk*/) { }
+
     void add(const MeshInstance& instance)
     {
         const Mesh& mesh = scene_.meshes[instance.mesh];

@@ -23,6 +23,17 @@ Bounds shape_bounds(const Scene& /*scene*/, const Quad& quad)
     return bounds;
 }
 
+Bounds shape_bounds(const Scene& /*scene*/, const Disk& disk)
+{
+    // A disc reaches radius * sin(angle to its normal) along an axis.
+    const glm::dvec3 reach =
+        disk.radius * glm::sqrt(glm::max(glm::dvec3(0), 1.0 - disk.normal * disk.normal));
+    Bounds bounds;
+    bounds.extend(disk.center - reach);
+    bounds.extend(disk.center + reach);
+    return bounds;
+}
+
 Bounds shape_bounds(const Scene& scene, const MeshInstance& instance)
 {
     Bounds bounds;
