@@ -5,7 +5,7 @@
 
 namespace farlight {
 
-Texture::Texture(const std::string& label, GLenum format, Extent extent)
+GpuTexture::GpuTexture(const std::string& label, GLenum format, Extent extent)
     : format_(format)
     , extent_(extent)
 {
@@ -24,12 +24,12 @@ Texture::Texture(const std::string& label, GLenum format, Extent extent)
     check_gl("clearing texture '" + label + "'");
 }
 
-Texture::~Texture()
+GpuTexture::~GpuTexture()
 {
     glDeleteTextures(1, &id_);
 }
 
-void Texture::relabel(const std::string& label)
+void GpuTexture::relabel(const std::string& label)
 {
     glObjectLabel(GL_TEXTURE, id_, -1, label.c_str());
 }

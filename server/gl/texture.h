@@ -1,4 +1,4 @@
-// Texture: a 2D image without mip levels, the only kind the frame needs.
+// GpuTexture: a 2D image without mip levels, the only kind the frame needs.
 #pragma once
 
 #include "server/gl/extent.h"
@@ -8,13 +8,13 @@
 
 namespace farlight {
 
-class Texture {
+class GpuTexture {
 public:
     /// Zero-filled. Throws GlError if the device has no room.
-    Texture(const std::string& label, GLenum format, Extent extent);
-    ~Texture();
-    Texture(const Texture&) = delete;
-    Texture& operator=(const Texture&) = delete;
+    GpuTexture(const std::string& label, GLenum format, Extent extent);
+    ~GpuTexture();
+    GpuTexture(const GpuTexture&) = delete;
+    GpuTexture& operator=(const GpuTexture&) = delete;
 
     GLuint id() const { return id_; }
     GLenum format() const { return format_; }

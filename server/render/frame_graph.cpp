@@ -110,7 +110,7 @@ History FrameGraph::history(const std::string& name, GLenum format)
     HistoryPair& pair = histories_[name];
     if (pair.textures[0] == nullptr || pair.textures[0]->format() != format) {
         for (auto& texture : pair.textures)
-            texture = std::make_shared<Texture>(name, format, extent_);
+            texture = std::make_shared<GpuTexture>(name, format, extent_);
         pair.written_last_frame = false;
     }
     if (pair.resource_current < 0) {
@@ -217,7 +217,7 @@ void FrameGraph::acquire(Resource& resource)
         pool_.erase(found);
         resource.texture->relabel(resource.name);
     } else {
-        resource.texture = std::make_shared<Texture>(resource.name, resource.format, extent_);
+        resource.texture = std::make_shared<GpuTexture>(resource.name, resource.format, extent_);
     }
 }
 
@@ -300,7 +300,8 @@ void FrameGraph::bind_textures(const Pass& pass, const Program& program)
         const auto variable = program.uniforms().find(use.name);
         if (variable == program.uniforms().end())
             continue;
-        const Texture& texture = *resources_[static_cast<std::size_t>(use.texture.index)].texture;
+        const GpuTexture& texture =
+            *resources_[static_cast<std::size_t>(use.texture.index)].texture;
         const auto unit = static_cast<GLuint>(variable->second.unit);
         if (kind_of(variable->second.type) == VariableKind::kImage)
             glBindImageTexture(unit, texture.id(), 0, GL_FALSE, 0,
@@ -343,7 +344,7 @@ void FrameGraph::set_constants(const Pass& pass, const Program& program) const
     }
 }
 
-const Texture& FrameGraph::texture(TextureHandle handle) const
+const GpuTexture& FrameGraph::texture(TextureHandle handle) const
 {
     const Resource& resource = resources_[static_cast<std::size_t>(handle.index)];
     assert(resource.texture != nullptr && "not kept");
@@ -353,7 +354,7 @@ const Texture& FrameGraph::texture(TextureHandle handle) const
 std::size_t FrameGraph::texture_bytes() const
 {
     std::size_t bytes = 0;
-    const auto count = [&](const std::shared_ptr<Texture>& texture) {
+    const auto count = [&](const std::shared_ptr<GpuTexture>& texture) {
         if (texture != nullptr)
             bytes += bytes_per_texel(texture->format()) * static_cast<std::size_t>(extent_.width)
                 * static_cast<std::size_t>(extent_.height);

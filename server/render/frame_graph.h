@@ -107,7 +107,7 @@ public:
     void execute();
 
     /// The texture behind a handle, after execute(), if it was kept or is a history.
-    const Texture& texture(TextureHandle handle) const;
+    const GpuTexture& texture(TextureHandle handle) const;
     std::vector<TimedPass> collect_times() { return timer_.collect(); }
     /// Bytes of all textures held, and how many.
     std::size_t texture_bytes() const;
@@ -119,14 +119,14 @@ private:
     struct Resource {
         std::string name;
         GLenum format = 0;
-        std::shared_ptr<Texture> texture;  ///< Transients get theirs when first written.
+        std::shared_ptr<GpuTexture> texture;  ///< Transients get theirs when first written.
         int last_pass = -1;
         bool transient = true;
         bool written = false;
         bool kept = false;
     };
     struct HistoryPair {
-        std::shared_ptr<Texture> textures[2];
+        std::shared_ptr<GpuTexture> textures[2];
         int current = 0;
         bool written_last_frame = false;
         int resource_previous = -1;
@@ -154,7 +154,7 @@ private:
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
     std::map<std::string, HistoryPair> histories_;
-    std::vector<std::shared_ptr<Texture>> pool_;
+    std::vector<std::shared_ptr<GpuTexture>> pool_;
     std::vector<GLuint> dirty_;  ///< Textures written since the last barrier.
     std::vector<GLuint> read_;  ///< Textures read since: a write to one must wait too.
     int barriers_ = 0;

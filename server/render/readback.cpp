@@ -27,7 +27,7 @@ Readback::~Readback()
     glDeleteBuffers(1, &buffer_);
 }
 
-void Readback::begin(const Texture& texture)
+void Readback::begin(const GpuTexture& texture)
 {
     assert(fence_ == nullptr && "finish() the frame before");
     extent_ = texture.extent();

@@ -17,7 +17,7 @@ public:
     Readback& operator=(const Readback&) = delete;
 
     /// Starts copying an rgba8 or rgba32f texture into a pixel buffer.
-    void begin(const Texture& texture);
+    void begin(const GpuTexture& texture);
     /// Waits for the copy; drops the alpha channel. Throws GlError if the device does not answer.
     Image finish();
 
