@@ -23,7 +23,7 @@ struct RealRange {
     double upper;
 };
 
-enum class Denoiser : std::uint8_t { kNone, kAccumulate, kSvgf };
+enum class Denoiser : std::uint8_t { kOff, kAccumulate, kSvgf };
 enum class Tonemap : std::uint8_t { kAces, kLinear };
 /// What is drawn: the finished picture, or one of the buffers behind it.
 enum class DebugView : std::uint8_t {

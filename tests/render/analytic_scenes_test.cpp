@@ -55,7 +55,7 @@ protected:
         RenderSettings s;
         s.max_depth = GetParam().max_depth;
         s.roulette_depth = 64;
-        s.denoiser = Denoiser::kNone;
+        s.denoiser = Denoiser::kOff;
         return s;
     }
 };
@@ -243,7 +243,7 @@ TEST_F(GlTest, WhiteSphereUnderAWhiteSkyDisappears)
     const TestScene on_device(scene);
     View view(on_device.shared);
     RenderSettings s;
-    s.denoiser = Denoiser::kNone;
+    s.denoiser = Denoiser::kOff;
     const RenderedFrame frame = view.render(linear_request(on_device.scene, {64, 64}, s));
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x)

@@ -151,7 +151,7 @@ TEST_P(SelfIntersectionTest, WhiteThingsUnderAWhiteSkyVanish)
     const auto& [name, scale, at] = GetParam();
     const TestScene on_device(white_things(scale, scale * at));
     RenderSettings s;
-    s.denoiser = Denoiser::kNone;
+    s.denoiser = Denoiser::kOff;
     s.max_depth = 64;  // a path that has not escaped by then was caught
     s.roulette_depth = 64;
     s.samples_per_pixel = 8;

@@ -181,7 +181,7 @@ TEST_F(SvgfTest, RemodulationIsTheInverseOfDemodulation)
         request.settings.atrous_iterations = 0;
         return view.render(request).image.bytes;
     };
-    EXPECT_EQ(render(Denoiser::kSvgf), render(Denoiser::kNone));
+    EXPECT_EQ(render(Denoiser::kSvgf), render(Denoiser::kOff));
 }
 
 TEST_F(SvgfTest, EmittersAndSkyBypassTheFilter)
@@ -247,7 +247,7 @@ TEST_F(SvgfTest, BeatsRawSamplesTenfoldAtRestAndFivefoldInMotion)
     request.settings = {};
     for (const double degrees_a_frame : {0.0, 2.0}) {
         double error[2];
-        for (const Denoiser denoiser : {Denoiser::kNone, Denoiser::kSvgf}) {
+        for (const Denoiser denoiser : {Denoiser::kOff, Denoiser::kSvgf}) {
             request.settings.denoiser = denoiser;
             View view(scene.shared);
             Image image;
