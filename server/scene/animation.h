@@ -45,14 +45,13 @@ struct Track {
     std::vector<double> times;  ///< [s], strictly increasing, >= 0, at least one.
     std::vector<float>
         values;  ///< Width numbers a key; cubic: in-tangent, value, out-tangent a key (glTF).
+    double period = 0;  ///< [s]; > 0: time wraps round at it (glTF clips); 0: plays once.
 };
 
 struct Animation {
     std::vector<Node> nodes;  ///< Only those that something hangs on.
     std::vector<Skin> skins;
     std::vector<Track> tracks;
-    double duration =
-        0;  ///< [s]; > 0: time wraps round at it (glTF clips); 0: plays once (timelines).
 
     bool empty() const { return tracks.empty(); }
 };

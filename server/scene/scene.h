@@ -134,12 +134,13 @@ struct Mesh {
     std::vector<glm::vec4> weights = {};  ///< Of the joints, sum 1.
 };
 
+/// uv: longitude and latitude as on a globe: u = 0.5 + atan2(x, z) / 2 pi, v = acos(y) / pi.
 struct Sphere {
     glm::dvec3 center{0};
     double radius = 1;  ///< > 0.
 };
 
-/// Flat, one-sided where it emits.
+/// Flat, one-sided where it emits. It has no uv: (0, 0) everywhere.
 struct Disk {
     glm::dvec3 center{0};
     glm::dvec3 normal{0, 0, 1};  ///< Unit.
@@ -147,6 +148,7 @@ struct Disk {
 };
 
 /// Parallelogram corner + s * edge_u + t * edge_v, s and t in [0, 1]; normal = edge_u x edge_v.
+/// uv: (s, 1 - t), so that a picture stands upright on edge_u.
 struct Quad {
     glm::dvec3 corner{0};
     glm::dvec3 edge_u{1, 0, 0};
