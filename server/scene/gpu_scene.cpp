@@ -2,6 +2,7 @@
 #include "server/scene/gpu_scene.h"
 
 #include "server/gl/gl_error.h"
+#include "server/scene/materials.h"
 #include "shaders/shared/scene_layout.h"
 
 #include <array>
@@ -233,11 +234,7 @@ PackedScene pack_scene(const Scene& scene)
         else
             pack_sphere(packed, scene, flat.spheres[i - flat.triangles.size()]);
     }
-    for (const Material& material : scene.materials) {
-        packed.materials.push_back(
-            texel(material.albedo, material.emits_both_sides ? MATERIAL_EMITS_BOTH_SIDES : 0));
-        packed.materials.push_back(texel(material.emission, 0));
-    }
+    packed.materials = pack_materials(scene.materials);
     pack_lights(packed, flat.lights);
     packed.content = content_of(flat);
     packed.dropped_triangles = flat.dropped;

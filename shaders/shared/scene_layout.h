@@ -7,7 +7,7 @@
 //   spheres      2 a sphere, in leaf order: center.xyz and radius; primitive index
 //   primitives   2 a primitive: object, material, light + 1 (0: none), has shading normals;
 //                its three shading normals, octahedral
-//   materials    2 a material: albedo.rgb, MATERIAL_* flags; emission.rgb
+//   materials    MATERIAL_TEXELS a material, each at its MATERIAL_* offset below
 //   lights       4 a light: LIGHT_* kind, material, pmf, area; p0.xyz and alias threshold;
 //                edge_u.xyz (sphere: radius) and alias index; edge_v.xyz
 #pragma once
@@ -22,10 +22,23 @@
 #define TRIANGLE_TEXELS 3
 #define SPHERE_TEXELS 2
 #define PRIMITIVE_TEXELS 2
-#define MATERIAL_TEXELS 2
 #define LIGHT_TEXELS 4
 
+// Texels of a material.
+#define MATERIAL_TEXELS 6
+#define MATERIAL_ALBEDO 0    // albedo.rgb; MATERIAL_* flags
+#define MATERIAL_EMISSION 1  // emission.rgb; opacity
+#define MATERIAL_BASE 2      // metallic; roughness, perceptual; specular; ior
+#define MATERIAL_SPECULAR 3  // specular_color.rgb; transmission
+#define MATERIAL_INSIDE 4    // absorption.rgb; priority, as a signed integer
+#define MATERIAL_COAT 5      // clearcoat; clearcoat_roughness; normal_scale; alpha_cutoff
+
+// Flags of a material.
 #define MATERIAL_EMITS_BOTH_SIDES 1u
+#define MATERIAL_UNLIT 2u
+#define MATERIAL_THIN_WALLED 4u
+#define MATERIAL_ALPHA_MASK 8u
+#define MATERIAL_ALPHA_BLEND 16u
 
 #define LIGHT_QUAD 0u      // parallelogram p0 + s * edge_u + t * edge_v
 #define LIGHT_TRIANGLE 1u  // p0, p0 + edge_u, p0 + edge_v

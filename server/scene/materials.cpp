@@ -1,0 +1,52 @@
+// Packing materials into texels.
+#include "server/scene/materials.h"
+
+#include "shaders/shared/scene_layout.h"
+
+namespace farlight {
+namespace {
+
+std::uint32_t bits(float value)
+{
+    return glm::floatBitsToUint(value);
+}
+
+glm::uvec4 texel(const glm::vec3& xyz, std::uint32_t w)
+{
+    return {glm::floatBitsToUint(xyz), w};
+}
+
+std::uint32_t flags_of(const Material& material)
+{
+    std::uint32_t flags = 0;
+    flags |= material.emits_both_sides ? MATERIAL_EMITS_BOTH_SIDES : 0;
+    flags |= material.unlit ? MATERIAL_UNLIT : 0;
+    flags |= material.thin_walled ? MATERIAL_THIN_WALLED : 0;
+    flags |= material.alpha_mode == AlphaMode::kMask ? MATERIAL_ALPHA_MASK : 0;
+    flags |= material.alpha_mode == AlphaMode::kBlend ? MATERIAL_ALPHA_BLEND : 0;
+    return flags;
+}
+
+void pack(const Material& m, glm::uvec4* texels)
+{
+    texels[MATERIAL_ALBEDO] = texel(m.albedo, flags_of(m));
+    texels[MATERIAL_EMISSION] = texel(m.emission, bits(m.opacity));
+    texels[MATERIAL_BASE] =
+        glm::floatBitsToUint(glm::vec4(m.metallic, m.roughness, m.specular, m.ior));
+    texels[MATERIAL_SPECULAR] = texel(m.specular_color, bits(m.transmission));
+    texels[MATERIAL_INSIDE] = texel(m.absorption, static_cast<std::uint32_t>(m.priority));
+    texels[MATERIAL_COAT] = glm::floatBitsToUint(
+        glm::vec4(m.clearcoat, m.clearcoat_roughness, m.normal_scale, m.alpha_cutoff));
+}
+
+}  // namespace
+
+std::vector<glm::uvec4> pack_materials(const std::vector<Material>& materials)
+{
+    std::vector<glm::uvec4> texels(materials.size() * MATERIAL_TEXELS);
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        pack(materials[i], &texels[i * MATERIAL_TEXELS]);
+    return texels;
+}
+
+}  // namespace farlight

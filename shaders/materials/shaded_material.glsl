@@ -1,0 +1,30 @@
+// What is known of a material at one point, free of any buffer.
+#pragma once
+
+// Names and meanings as server/scene/scene.h has them. Members of an effect that is not compiled do not exist.
+struct ShadedMaterial {
+    vec3 albedo;
+    vec3 emission;        // radiance towards the side the surface was seen from
+    vec3 shading_normal;  // unit, world space, on the viewer's side
+#ifdef FX_UNLIT
+    bool unlit;
+#endif
+#if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+    float metallic;
+    float roughness;  // perceptual
+    float specular;
+    float ior;  // of the inside
+    vec3 specular_color;
+#endif
+#if defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+    float transmission;
+    bool thin_walled;
+    vec3 absorption;
+    int priority;
+#endif
+#ifdef FX_CLEARCOAT
+    float clearcoat;
+    float clearcoat_roughness;
+    vec3 clearcoat_normal;  // unit, world space, on the viewer's side
+#endif
+};
