@@ -5,6 +5,7 @@
 #include "server/gl/gl_error.h"
 #include "server/render/start_size.h"
 #include "server/render/view.h"
+#include "server/scene/neutral.h"
 
 #include <algorithm>
 #include <atomic>
@@ -272,6 +273,7 @@ void Renderer::State::lose_device(const std::string& message)
 Renderer::Renderer(Scene scene, const RendererOptions& options) : state_(std::make_unique<State>())
 {
     state_->scene = std::move(scene);
+    drop_neutral(state_->scene);
     state_->options = options;
     std::promise<void> ready;
     std::future<void> started = ready.get_future();

@@ -207,9 +207,14 @@ void pack_lights(PackedScene& packed, const std::vector<Light>& lights)
     }
 }
 
-SceneContent content_of(const Flattener& flat)
+SceneContent content_of(const Flattener& flat, std::size_t objects)
 {
     SceneContent content;
+    content.drawn.assign(objects, 0);
+    for (const FlatTriangle& triangle : flat.triangles)
+        content.drawn[triangle.object] = 1;
+    for (const FlatSphere& sphere : flat.spheres)
+        content.drawn[sphere.object] = 1;
     content.triangles = flat.triangles.size();
     content.spheres = flat.spheres.size();
     for (const FlatTriangle& triangle : flat.triangles)
@@ -236,7 +241,7 @@ PackedScene pack_scene(const Scene& scene)
     }
     packed.materials = pack_materials(scene.materials);
     pack_lights(packed, flat.lights);
-    packed.content = content_of(flat);
+    packed.content = content_of(flat, scene.objects.size());
     packed.dropped_triangles = flat.dropped;
     return packed;
 }
@@ -248,8 +253,8 @@ GpuScene::GpuScene(const Scene& scene)
     triangle_count_ = packed.content.triangles;
     light_count_ = packed.light_count();
     dropped_triangles_ = packed.dropped_triangles;
-    for (const ActiveEffect& effect : effects_)
-        defines_.emplace_back(effect.macro, "1");
+    for (const std::string_view macro : mask_of(effects_).macros())
+        defines_.emplace_back(macro, "1");
     defines_.emplace_back("BVH_STACK_SIZE", std::to_string(packed.stack_depth + 1));
     defines_.emplace_back("LIGHT_COUNT", std::to_string(packed.light_count()) + "u");
     upload("bvh_nodes", packed.bvh_nodes);

@@ -1,10 +1,18 @@
 // The process-wide test context.
 #include "tests/support/gl_test.h"
 
+#include "server/scene/neutral.h"
+
 #include <cstring>
 
 namespace farlight {
 namespace {
+
+Scene without_neutral(Scene scene)
+{
+    drop_neutral(scene);
+    return scene;
+}
 
 SharedScene share(ProgramCache& programs, const GpuScene& gpu_scene, const Scene& scene)
 {
@@ -16,7 +24,7 @@ SharedScene share(ProgramCache& programs, const GpuScene& gpu_scene, const Scene
 }  // namespace
 
 TestScene::TestScene(Scene s)
-    : scene(std::move(s))
+    : scene(without_neutral(std::move(s)))
     , gpu_scene_(scene)
     , shared(share(programs_, gpu_scene_, scene))
 {

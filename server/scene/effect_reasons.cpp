@@ -1,0 +1,362 @@
+// Reasons, from what shapes are made of down to the camera. Each finds the first thing of its kind.
+#include "server/scene/effect_reasons.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace farlight::effect_reasons {
+namespace {
+
+/// Shortest of the numbers that people read: "0.02", "1e+06".
+std::string shown(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", value);
+    return text;
+}
+
+std::string shown(const glm::vec3& v)
+{
+    return v.x == v.y && v.y == v.z ? shown(v.x) : shown(v.x) + " " + shown(v.y) + " " + shown(v.z);
+}
+
+std::string quoted(const std::string& name)
+{
+    return "'" + name + "'";
+}
+
+bool is_lit(const glm::vec3& radiance)
+{
+    return radiance.x > 0 || radiance.y > 0 || radiance.z > 0;
+}
+
+/// The first object left after packing that `wanted` accepts.
+template <typename Wanted>
+const Object* first_object(const Scene& scene, const SceneContent& content, const Wanted& wanted)
+{
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+        if (content.is_drawn(i) && wanted(scene.objects[i]))
+            return &scene.objects[i];
+    return nullptr;
+}
+
+/// "N THINGS, first 'name'"; nothing for none.
+template <typename Wanted>
+Reason counted(const Scene& scene, const SceneContent& content, std::size_t count,
+    const char* things, const Wanted& wanted)
+{
+    if (count == 0)
+        return std::nullopt;
+    const Object* first = first_object(scene, content, wanted);
+    return std::to_string(count) + " " + things
+        + (first == nullptr ? "" : ", first " + quoted(first->name));
+}
+
+/// "material 'gold' of 'ring', WHAT" of the first object whose material `wanted` accepts.
+template <typename Wanted>
+Reason by_material(
+    const Scene& scene, const SceneContent& content, const std::string& what, const Wanted& wanted)
+{
+    const Object* first = first_object(scene, content,
+        [&](const Object& object) { return wanted(scene.materials[object.material]); });
+    if (first == nullptr)
+        return std::nullopt;
+    return "material " + quoted(scene.materials[first->material].name) + " of "
+        + quoted(first->name) + (what.empty() ? "" : ", " + what);
+}
+
+bool is_sphere(const Object& object)
+{
+    return std::holds_alternative<Sphere>(object.shape);
+}
+bool is_disk(const Object& object)
+{
+    return std::holds_alternative<Disk>(object.shape);
+}
+const Mesh* mesh_of(const Scene& scene, const Object& object)
+{
+    const auto* instance = std::get_if<MeshInstance>(&object.shape);
+    return instance == nullptr ? nullptr : &scene.meshes[instance->mesh];
+}
+bool emits(const Scene& scene, const Object& object)
+{
+    return is_lit(scene.materials[object.material].emission);
+}
+
+/// Whether a track moves the node or one that carries it.
+bool is_moved(const Animation& animation, std::uint32_t node)
+{
+    for (; node != kNone; node = animation.nodes[node].parent)
+        for (const Track& track : animation.tracks)
+            if (track.index == node
+                && (track.target == Track::Target::kTranslation
+                    || track.target == Track::Target::kRotation
+                    || track.target == Track::Target::kScale))
+                return true;
+    return false;
+}
+
+bool is_deformed(const Scene& scene, std::size_t object)
+{
+    const auto* instance = std::get_if<MeshInstance>(&scene.objects[object].shape);
+    if (instance == nullptr)
+        return false;
+    const auto& joints = instance->skin == kNone ? std::vector<std::uint32_t>{}
+                                                 : scene.animation.skins[instance->skin].joints;
+    return std::any_of(joints.begin(), joints.end(),
+               [&](std::uint32_t joint) { return is_moved(scene.animation, joint); })
+        || std::any_of(
+            scene.animation.tracks.begin(), scene.animation.tracks.end(), [&](const Track& track) {
+                return track.target == Track::Target::kMorphWeights && track.index == object;
+            });
+}
+
+/// All of a material's textures.
+template <typename Visit> void each_texture(const Material& m, const Visit& visit)
+{
+    for (const Texture* texture :
+        {&m.albedo_texture, &m.emission_texture, &m.metallic_roughness_texture, &m.normal_texture,
+            &m.specular_texture, &m.specular_color_texture, &m.transmission_texture,
+            &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture})
+        visit(*texture);
+}
+
+bool reflects(const Material& m)
+{
+    return !m.unlit && (m.metallic > 0 || m.specular > 0 || m.transmission > 0);
+}
+/// What a texture says is held above the threshold, so a textured roughness is never sharp.
+bool is_sharp(const Material& m)
+{
+    return !m.metallic_roughness_texture.used() && m.roughness <= kMirrorRoughness;
+}
+
+}  // namespace
+
+Reason never(const Scene& /*scene*/, const SceneContent& /*content*/)
+{
+    return std::nullopt;
+}
+
+// ---------------------------------------------------------------- shapes
+
+Reason triangles(const Scene& scene, const SceneContent& content)
+{
+    return counted(scene, content, content.triangles, "triangles",
+        [](const Object& object) { return !is_sphere(object) && !is_disk(object); });
+}
+
+Reason spheres(const Scene& scene, const SceneContent& content)
+{
+    return counted(scene, content, content.spheres, "spheres", is_sphere);
+}
+
+Reason disks(const Scene& scene, const SceneContent& content)
+{
+    return counted(scene, content, content.disks, "discs", is_disk);
+}
+
+Reason shading_normals(const Scene& scene, const SceneContent& content)
+{
+    return counted(
+        scene, content, content.smooth_triangles, "smooth triangles", [&](const Object& object) {
+            const Mesh* mesh = mesh_of(scene, object);
+            return mesh != nullptr && !mesh->normals.empty();
+        });
+}
+
+Reason instances(const Scene& scene, const SceneContent& content)
+{
+    return counted(scene, content, content.instances, "placements", [&](const Object& object) {
+        return is_moved(scene.animation, object.node) || mesh_of(scene, object) != nullptr;
+    });
+}
+
+Reason motion(const Scene& scene, const SceneContent& content)
+{
+    const Object* first = first_object(scene, content,
+        [&](const Object& object) { return is_moved(scene.animation, object.node); });
+    return first == nullptr ? Reason() : "object " + quoted(first->name) + " moves";
+}
+
+Reason deformation(const Scene& scene, const SceneContent& content)
+{
+    for (std::size_t i = 0; i < scene.objects.size(); ++i)
+        if (content.is_drawn(i) && is_deformed(scene, i))
+            return "object " + quoted(scene.objects[i].name) + " changes its shape";
+    return std::nullopt;
+}
+
+// ---------------------------------------------------------------- lights
+
+Reason lights(const Scene& scene, const SceneContent& content)
+{
+    for (const auto& reason : {polygon_lights, sphere_lights, disk_lights, emissive_meshes,
+             delta_lights, environment_map})
+        if (Reason found = reason(scene, content))
+            return found;
+    return std::nullopt;
+}
+
+Reason polygon_lights(const Scene& scene, const SceneContent& content)
+{
+    return counted(
+        scene, content, content.polygon_lights, "emissive polygons", [&](const Object& object) {
+            return !is_sphere(object) && !is_disk(object) && emits(scene, object);
+        });
+}
+
+Reason sphere_lights(const Scene& scene, const SceneContent& content)
+{
+    return counted(scene, content, content.sphere_lights, "emissive spheres",
+        [&](const Object& object) { return is_sphere(object) && emits(scene, object); });
+}
+
+Reason disk_lights(const Scene& scene, const SceneContent& content)
+{
+    return counted(scene, content, content.disk_lights, "emissive discs",
+        [&](const Object& object) { return is_disk(object) && emits(scene, object); });
+}
+
+Reason emissive_meshes(const Scene& scene, const SceneContent& content)
+{
+    return counted(scene, content, content.emissive_triangles, "emissive triangles",
+        [&](const Object& object) {
+            return mesh_of(scene, object) != nullptr && emits(scene, object);
+        });
+}
+
+Reason delta_lights(const Scene& scene, const SceneContent& /*content*/)
+{
+    static constexpr const char* kKinds[] = {"point", "spot", "directional"};
+    for (const PunctualLight& light : scene.lights)
+        if (is_lit(light.intensity))
+            return std::string(kKinds[static_cast<std::size_t>(light.kind)]) + " light "
+                + quoted(light.name) + ", intensity " + shown(light.intensity);
+    return std::nullopt;
+}
+
+Reason light_tree(const Scene& /*scene*/, const SceneContent& content)
+{
+    if (content.light_tree_nodes == 0)
+        return std::nullopt;
+    return std::to_string(content.light_tree_nodes) + " nodes over the lights";
+}
+
+Reason background(const Scene& scene, const SceneContent& /*content*/)
+{
+    if (!is_lit(scene.background))
+        return std::nullopt;
+    return "background radiance " + shown(scene.background)
+        + (scene.environment ? " times a map" : "");
+}
+
+Reason environment_map(const Scene& scene, const SceneContent& /*content*/)
+{
+    if (!scene.environment || !is_lit(scene.background))
+        return std::nullopt;
+    return "environment " + quoted(scene.environment->file) + ", "
+        + std::to_string(scene.environment->width) + "x"
+        + std::to_string(scene.environment->height);
+}
+
+// ---------------------------------------------------------------- materials
+
+Reason textures(const Scene& scene, const SceneContent& content)
+{
+    const Texture* first = nullptr;
+    Reason reason = by_material(scene, content, "", [&](const Material& material) {
+        each_texture(material, [&](const Texture& texture) {
+            if (first == nullptr && texture.used())
+                first = &texture;
+        });
+        return first != nullptr;
+    });
+    if (reason)
+        *reason += ", image " + quoted(scene.images[first->image].name);
+    return reason;
+}
+
+Reason normal_maps(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "normal map", [](const Material& m) {
+        return m.normal_texture.used() || m.clearcoat_normal_texture.used();
+    });
+}
+
+Reason vertex_colors(const Scene& scene, const SceneContent& content)
+{
+    const Object* first = first_object(scene, content, [&](const Object& object) {
+        const Mesh* mesh = mesh_of(scene, object);
+        return mesh != nullptr && !mesh->colors.empty();
+    });
+    return first == nullptr ? Reason() : "object " + quoted(first->name);
+}
+
+Reason rough_reflection(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "rough reflection", [](const Material& m) {
+        return !m.unlit && (m.metallic > 0 || m.specular > 0) && !is_sharp(m);
+    });
+}
+
+Reason mirror(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "sharp reflection", [](const Material& m) {
+        return !m.unlit && (m.metallic > 0 || m.specular > 0) && is_sharp(m);
+    });
+}
+
+Reason clearcoat(const Scene& scene, const SceneContent& content)
+{
+    return by_material(
+        scene, content, "clearcoat", [](const Material& m) { return !m.unlit && m.clearcoat > 0; });
+}
+
+Reason dielectric(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "transmits light",
+        [](const Material& m) { return !m.unlit && m.transmission > 0; });
+}
+
+Reason rough_dielectric(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "transmits light roughly",
+        [](const Material& m) { return !m.unlit && m.transmission > 0 && !is_sharp(m); });
+}
+
+Reason unlit(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "unlit", [](const Material& m) { return m.unlit; });
+}
+
+Reason alpha(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "not opaque",
+        [](const Material& m) { return m.alpha_mode != AlphaMode::kOpaque; });
+}
+
+Reason specular_signal(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "glossy",
+        [](const Material& m) { return reflects(m) || (!m.unlit && m.clearcoat > 0); });
+}
+
+// ---------------------------------------------------------------- medium, camera
+
+Reason fog(const Scene& scene, const SceneContent& /*content*/)
+{
+    const glm::vec3 sigma_t = scene.medium.sigma_a + scene.medium.sigma_s;
+    if (!is_lit(sigma_t))
+        return std::nullopt;
+    return "medium " + quoted(scene.medium.name) + ", sigma_t " + shown(sigma_t) + " 1/m";
+}
+
+Reason lens(const Scene& scene, const SceneContent& /*content*/)
+{
+    if (!(scene.lens.radius > 0))
+        return std::nullopt;
+    return "aperture of radius " + shown(scene.lens.radius) + " m";
+}
+
+}  // namespace farlight::effect_reasons
