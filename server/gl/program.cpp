@@ -49,6 +49,7 @@ VariableKind kind_of(GLenum uniform_type)
 {
     switch (uniform_type) {
     case GL_SAMPLER_2D:
+    case GL_SAMPLER_2D_ARRAY:
     case GL_INT_SAMPLER_2D:
     case GL_UNSIGNED_INT_SAMPLER_2D:
     case GL_SAMPLER_BUFFER:

@@ -146,6 +146,8 @@ private:
     std::uint32_t add_light(Light light)
     {
         light.material = scene_.objects[object_].material;
+        light.radiance = scene_.materials[light.material].emission;
+        light.emits_both_sides = scene_.materials[light.material].emits_both_sides;
         light.power = light_power(light, scene_.materials[light.material]);
         if (!(light.power > 0))
             return 0;
@@ -200,10 +202,13 @@ void pack_sphere(PackedScene& packed, const Scene& scene, const FlatSphere& sphe
 void pack_lights(PackedScene& packed, const std::vector<Light>& lights)
 {
     for (const Light& light : lights) {
-        packed.lights.emplace_back(light.kind, light.material, bits(light.pmf), bits(light.area));
+        packed.lights.emplace_back(
+            light.kind | (light.emits_both_sides ? LIGHT_EMITS_BOTH_SIDES : 0), 0, bits(light.pmf),
+            bits(light.area));
         packed.lights.push_back(texel(light.p0, bits(light.alias_threshold)));
         packed.lights.push_back(texel(light.edge_u, light.alias));
         packed.lights.push_back(texel(light.edge_v, 0));
+        packed.lights.push_back(texel(light.radiance, 0));
     }
 }
 

@@ -18,6 +18,8 @@ struct Light {
     glm::vec3 edge_u{0};
     glm::vec3 edge_v{0};
     float area = 0;  ///< [m^2], one side.
+    glm::vec3 radiance{0};
+    bool emits_both_sides = false;
     double power =
         0;  ///< Luminance of the emitted flux [W]: pi * Le * area, twice that if both sides emit.
     float pmf = 0;  ///< Probability that the alias table picks this light; sums to 1.

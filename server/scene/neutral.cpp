@@ -1,6 +1,8 @@
 // Tracks first (they may switch something off for good), then materials, then what surrounds all.
 #include "server/scene/neutral.h"
 
+#include "server/scene/texture_mips.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -112,21 +114,14 @@ Range range_of(const Image8& image)
     return range;
 }
 
-/// Source: IEC 61966-2-1, the sRGB transfer function.
-float linear_from_srgb(std::uint8_t value)
-{
-    const double v = value / 255.0;
-    return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
-}
-
 glm::vec3 linear_color(const glm::u8vec4& texel)
 {
-    return {linear_from_srgb(texel.x), linear_from_srgb(texel.y), linear_from_srgb(texel.z)};
+    return glm::vec3(decoded(texel, TexelSpace::kSrgb));
 }
 
 glm::vec4 linear_value(const glm::u8vec4& texel)
 {
-    return glm::vec4(texel) / 255.0F;
+    return decoded(texel, TexelSpace::kLinear);
 }
 
 /// Flat up to the rounding of 8 bits: 127 and 128 stand for 0, 254 and 255 for 1.

@@ -11,7 +11,7 @@
 #version 450
 #include "lib/frame.glsl"
 #include "geometry/surface.glsl"
-#include "lights/light.glsl"
+#include "lights/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -62,6 +62,6 @@ void main()
         met ? uvec4(primitive.object, primitive.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
     imageStore(out_position, px, met ? vec4(s.position, s.offset) : vec4(0.0));
     imageStore(out_albedo, px, met ? vec4(material.albedo, 1.0) : vec4(0.0));
-    imageStore(out_emission, px, vec4(met ? emitted(material, s.front) : frame.background, 1.0));
+    imageStore(out_emission, px, vec4(met ? emitted(material, s.front) : environment_radiance(ray.direction), 1.0));
     imageStore(out_motion, px, met ? motion_of(s.position, s.position) : vec4(0.0));
 }

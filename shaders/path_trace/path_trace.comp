@@ -12,7 +12,7 @@
 #include "lib/frame.glsl"
 #include "lib/random.glsl"
 #include "geometry/surface.glsl"
-#include "lights/light.glsl"
+#include "lights/lights.glsl"
 #include "bsdf/diffuse.glsl"
 #include "lib/counters.glsl"
 
@@ -43,32 +43,31 @@ struct Vertex {
 // chance that the BSDF sample finds the same light.
 vec3 sample_direct(Vertex v, vec4 u)
 {
-    const Light light = choose_light(u.x);
-    const LightSample s = sample_light(light, v.position, u.yz);
+    const LightSample s = sample_lights(v.position, v.shading_normal, u);
     const float cos_surface = dot(v.shading_normal, s.wi);
     const bool above = dot(v.geometric_normal, s.wi) > 0.0;
-    const vec3 radiance = emitted(load_material(light.material), s.cos_light > 0.0);
     const float pdf_bsdf = diffuse_pdf(cos_surface);
-    const bool useful = s.pdf > 0.0 && pdf_bsdf > 0.0 && above && max_component(radiance) > 0.0;
+    const bool useful = s.pdf > 0.0 && pdf_bsdf > 0.0 && above && max_component(s.radiance) > 0.0;
     // Both ends are offset off their surfaces, each by its own rounding error, and the ray runs between them.
     const vec3 from = offset_origin(v.position, v.geometric_normal, v.offset, s.wi);
-    const vec3 to = offset_origin(s.position, s.normal, s.offset, -s.wi);
+    const vec3 to = s.infinite ? from + s.wi : offset_origin(s.position, s.normal, s.offset, -s.wi);
     const vec3 way = to - from;
     const float distance = length(way);
     const bool ahead = dot(way, s.wi) > 0.0;
-    const bool blocked = any_hit(Ray(from, way / distance), useful && ahead ? distance : 0.0);
-    return useful && !blocked ? radiance * (pdf_bsdf / s.pdf * power_heuristic(s.pdf, pdf_bsdf)) : vec3(0.0);
+    const float t_max = s.infinite ? T_INFINITY : distance;
+    const bool blocked = any_hit(Ray(from, way / distance), useful && ahead ? t_max : 0.0);
+    const float weight = s.delta ? 1.0 : power_heuristic(s.pdf, pdf_bsdf);
+    return useful && !blocked ? s.radiance * (pdf_bsdf / s.pdf * weight) : vec3(0.0);
 }
 #endif
 
 // Radiance met by a BSDF sample, weighted against light sampling.
-vec3 weighted_emission(Vertex v, Material material, Surface s, Primitive primitive, Hit hit, vec3 wi, float pdf_bsdf)
+vec3 weighted_emission(Vertex v, Material material, Surface s, Primitive primitive, float pdf_bsdf)
 {
     const vec3 radiance = emitted(material, s.front);
 #ifdef FX_LIGHTS
-    const float cos_light = dot(s.geometric_normal, wi);
-    const float pdf_light
-        = light_pdf(max(primitive.light, 1u) - 1u, v.position, length(s.position - v.position), cos_light);
+    const float pdf_light = light_pdf(
+        max(primitive.light, 1u) - 1u, v.position, v.shading_normal, s.position, s.geometric_normal);
     if (light_sampling != 0 && primitive.light != 0u)
         return radiance * power_heuristic(pdf_bsdf, pdf_light);
 #endif
@@ -99,10 +98,10 @@ void trace_path(Vertex v, uvec2 px, uint sample_index, inout vec3 direct, inout 
         const Primitive primitive = load_primitive(s.primitive);
         const Material material = load_material(primitive.material);
         if (met)
-            gathered += weighted_emission(v, material, s, primitive, hit, wi, diffuse_pdf(local.z));
+            gathered += weighted_emission(v, material, s, primitive, diffuse_pdf(local.z));
 #ifdef FX_BACKGROUND
         else if (leaves)
-            gathered += frame.background;
+            gathered += environment_radiance(wi);
 #endif
         if (alive) {
             if (segment == 2)

@@ -8,8 +8,12 @@
 //   primitives   2 a primitive: object, material, light + 1 (0: none), has shading normals;
 //                its three shading normals, octahedral
 //   materials    MATERIAL_TEXELS a material, each at its MATERIAL_* offset below
-//   lights       4 a light: LIGHT_* kind, material, pmf, area; p0.xyz and alias threshold;
-//                edge_u.xyz (sphere: radius) and alias index; edge_v.xyz
+//   lights       LIGHT_TEXELS a light: LIGHT_* kind and flags, place in light_textures + 1 (0: none), pmf, area;
+//                p0.xyz and alias threshold; edge_u.xyz (sphere, disk: radius) and alias index;
+//                edge_v.xyz (disk: normal); radiance.rgb
+//
+// A texture reference is TEXTURE_TEXELS texels wherever it stands: TEXTURE_* flags with array and layer, width and
+// height in 16 bits each, offset.xy; column_u.xy, column_v.xy. All zero: no texture, which reads as white.
 #pragma once
 
 #define BVH_NODE_TEXELS 7
@@ -22,7 +26,8 @@
 #define TRIANGLE_TEXELS 3
 #define SPHERE_TEXELS 2
 #define PRIMITIVE_TEXELS 2
-#define LIGHT_TEXELS 4
+#define LIGHT_TEXELS 5
+#define TEXTURE_TEXELS 2
 
 // Texels of a material.
 #define MATERIAL_TEXELS 6
@@ -43,3 +48,16 @@
 #define LIGHT_QUAD 0u      // parallelogram p0 + s * edge_u + t * edge_v
 #define LIGHT_TRIANGLE 1u  // p0, p0 + edge_u, p0 + edge_v
 #define LIGHT_SPHERE 2u
+#define LIGHT_KIND_MASK 0xffu
+#define LIGHT_EMITS_BOTH_SIDES 0x100u
+
+#define TEXTURE_ARRAYS 6u  // sampler2DArrays a program may bind for materials
+#define TEXTURE_USED 0x80000000u
+#define TEXTURE_NEAREST 0x40000000u
+#define TEXTURE_UV_SET_1 0x20000000u
+#define TEXTURE_WRAP_U_SHIFT 24  // 2 bits each
+#define TEXTURE_WRAP_V_SHIFT 22
+#define TEXTURE_ARRAY_SHIFT 16  // 3 bits; the layer is below
+#define TEXTURE_REPEAT 0u
+#define TEXTURE_MIRROR 1u
+#define TEXTURE_CLAMP 2u

@@ -1,0 +1,82 @@
+// Immutable storage a layout array, filled layer by layer and level by level.
+#include "server/scene/texture_arrays.h"
+
+#include "server/gl/gl_error.h"
+
+namespace farlight {
+namespace {
+
+GLuint storage(const std::string& label, const TextureArrayLayout& array)
+{
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &id);
+    glTextureStorage3D(id, static_cast<GLsizei>(array.levels()),
+        array.space == TexelSpace::kSrgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
+        static_cast<GLsizei>(array.width), static_cast<GLsizei>(array.height),
+        static_cast<GLsizei>(array.images.size()));
+    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glObjectLabel(GL_TEXTURE, id, -1, label.c_str());
+    return id;
+}
+
+void fill_layer(GLuint id, GLint layer, const std::vector<Image8>& levels)
+{
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        const Image8& image = levels[level];
+        glTextureSubImage3D(id, static_cast<GLint>(level), 0, 0, layer,
+            static_cast<GLsizei>(image.width), static_cast<GLsizei>(image.height), 1, GL_RGBA,
+            GL_UNSIGNED_BYTE, image.texels.data());
+    }
+}
+
+std::string sentence(const std::string& name, const TextureArrayLayout& array)
+{
+    return name + ": " + std::to_string(array.images.size()) + " layers of "
+        + std::to_string(array.width) + "x" + std::to_string(array.height)
+        + (array.space == TexelSpace::kSrgb ? " sRGB" : " linear") + " texels with mip levels, "
+        + std::to_string(array.bytes()) + " bytes";
+}
+
+}  // namespace
+
+TextureLimits device_texture_limits()
+{
+    GLint size = 0;
+    GLint layers = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+    // A reference keeps sizes and layers in 16 bits.
+    return {std::min(static_cast<std::uint32_t>(size), 0xffffU),
+        std::min(static_cast<std::uint32_t>(layers), 0xffffU)};
+}
+
+TextureArrays::TextureArrays(const TextureLayout& layout)
+{
+    const TextureArrayLayout nothing{TexelSpace::kLinear, 1, 1, {kNone}};
+    const std::vector<Image8> black{Image8{{}, 1, 1, {glm::u8vec4(0)}}};
+    for (std::size_t i = 0; i < TEXTURE_ARRAYS; ++i) {
+        const bool used = i < layout.arrays().size();
+        const TextureArrayLayout& array = used ? layout.arrays()[i] : nothing;
+        const std::string name = "texture_array_" + std::to_string(i);
+        const GLuint id = storage(name, array);
+        textures_[name] = id;
+        check_gl("allocating " + sentence(name, array));
+        for (std::size_t layer = 0; layer < array.images.size(); ++layer)
+            fill_layer(id, static_cast<GLint>(layer),
+                used ? mip_levels(layout.images()[array.images[layer]], array.space) : black);
+        check_gl("uploading " + name);
+        if (used) {
+            bytes_ += array.bytes();
+            report_.push_back(sentence(name, array));
+        }
+    }
+}
+
+TextureArrays::~TextureArrays()
+{
+    for (const auto& [name, id] : textures_)
+        glDeleteTextures(1, &id);
+}
+
+}  // namespace farlight

@@ -1,0 +1,35 @@
+// TextureArrays: a scene's images with their mip levels on the device.
+#pragma once
+
+#include "server/scene/textures.h"
+
+#include <epoxy/gl.h>
+#include <string>
+
+namespace farlight {
+
+/// What the current context allows.
+TextureLimits device_texture_limits();
+
+class TextureArrays {
+public:
+    /// Arrays of no layout hold one black texel, so that programs may bind all TEXTURE_ARRAYS.
+    /// Throws GlError if the device has no room.
+    explicit TextureArrays(const TextureLayout& layout);
+    ~TextureArrays();
+    TextureArrays(const TextureArrays&) = delete;
+    TextureArrays& operator=(const TextureArrays&) = delete;
+
+    /// texture_array_0, texture_array_1, ...: as shaders call them.
+    const std::map<std::string, GLuint, std::less<>>& textures() const { return textures_; }
+    std::size_t bytes() const { return bytes_; }
+    /// One sentence an array: what it holds and what it takes.
+    const std::vector<std::string>& report() const { return report_; }
+
+private:
+    std::map<std::string, GLuint, std::less<>> textures_;
+    std::size_t bytes_ = 0;
+    std::vector<std::string> report_;
+};
+
+}  // namespace farlight
