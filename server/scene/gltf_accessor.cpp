@@ -4,108 +4,137 @@
 #include "server/scene/gltf_component.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <limits>
-#include <tiny_gltf.h>
+#include <type_traits>
 
 namespace farlight {
 
 namespace {
 
-template <typename Component> double component_as(const unsigned char* bytes, bool normalized)
+using Json = nlohmann::json;
+
+template <typename Component> Component load(const unsigned char* bytes)
 {
     Component value;
     std::memcpy(&value, bytes, sizeof(value));
-    if constexpr (std::numeric_limits<Component>::is_integer)
-        if (normalized)  // the most negative integer stands for -1 too
-            return std::max(
-                static_cast<double>(value) / std::numeric_limits<Component>::max(), -1.0);
     return value;
 }
 
-double component(const unsigned char* bytes, int type, bool normalized)
+/// Elements lying `stride` apart from `bytes`.
+struct Source {
+    const unsigned char* bytes;
+    std::size_t stride;
+    ElementLayout layout;
+    int component_type;
+    bool normalized;
+};
+
+template <typename Element>
+inline constexpr bool kOfFloats =
+    !std::is_same_v<Element, std::uint32_t> && !std::is_same_v<Element, glm::u16vec4>;
+
+template <typename Element, typename Component>
+Element convert(const unsigned char* bytes, const Source& source)
 {
-    switch (type) {
-    case kByte: return component_as<std::int8_t>(bytes, normalized);
-    case kUnsignedByte: return component_as<std::uint8_t>(bytes, normalized);
-    case kShort: return component_as<std::int16_t>(bytes, normalized);
-    case kUnsignedShort: return component_as<std::uint16_t>(bytes, normalized);
-    case kUnsignedInt: return component_as<std::uint32_t>(bytes, normalized);
-    default: return component_as<float>(bytes, normalized);
+    using Lane = std::conditional_t<kOfFloats<Element>, float,
+        std::conditional_t<std::is_same_v<Element, std::uint32_t>, std::uint32_t, std::uint16_t>>;
+    Element element;
+    auto* lane = reinterpret_cast<Lane*>(&element);
+    for (std::size_t column = 0; column < source.layout.columns; ++column)
+        for (std::size_t row = 0; row < source.layout.rows; ++row, ++lane) {
+            const auto value = load<Component>(
+                bytes + column * source.layout.column_stride + row * sizeof(Component));
+            if constexpr (kOfFloats<Element> && std::is_integral_v<Component>)
+                // In double, so that the result is the float nearest to the quotient; the most
+                // negative integer stands for -1 too.
+                *lane = static_cast<float>(!source.normalized
+                        ? value
+                        : std::max(-1.0,
+                            static_cast<double>(value) / std::numeric_limits<Component>::max()));
+            else
+                *lane = static_cast<Lane>(value);
+        }
+    return element;
+}
+
+template <typename Element, typename Component>
+void read_as(const Source& source, std::vector<Element>& out)
+{
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = convert<Element, Component>(source.bytes + i * source.stride, source);
+}
+
+template <typename Element> void read_all(const Source& source, std::vector<Element>& out)
+{
+    switch (source.component_type) {
+    case kByte: return read_as<Element, std::int8_t>(source, out);
+    case kUnsignedByte: return read_as<Element, std::uint8_t>(source, out);
+    case kShort: return read_as<Element, std::int16_t>(source, out);
+    case kUnsignedShort: return read_as<Element, std::uint16_t>(source, out);
+    case kUnsignedInt: return read_as<Element, std::uint32_t>(source, out);
+    default:
+        if constexpr (kOfFloats<Element>)  // as they are: float lanes have no gaps between
+            for (std::size_t i = 0; i < out.size(); ++i)
+                std::memcpy(&out[i], source.bytes + i * source.stride, sizeof(Element));
+        else
+            assert(!"floats where integers were checked");
     }
 }
 
-/// Elements of Vector (3 floats or 1 index) lying `stride` apart from `bytes`.
-struct Elements {
-    const unsigned char* bytes;
-    std::size_t stride;
-    int component_type;
-    bool normalized;
-
-    void read(std::size_t i, glm::vec3& out) const
-    {
-        const auto size = component_size(component_type);
-        for (int lane = 0; lane < 3; ++lane)
-            out[lane] = static_cast<float>(
-                component(bytes + i * stride + static_cast<std::size_t>(lane) * size,
-                    component_type, normalized));
-    }
-    void read(std::size_t i, std::uint32_t& out) const
-    {
-        out = static_cast<std::uint32_t>(component(bytes + i * stride, component_type, false));
-    }
-};
-
-const unsigned char* view_bytes(
-    const tinygltf::Model& model, int buffer_view, std::size_t byte_offset)
+const unsigned char* view_bytes(const GltfContainer& gltf, const Json& part)
 {
-    const auto& view = model.bufferViews[static_cast<std::size_t>(buffer_view)];
-    return model.buffers[static_cast<std::size_t>(view.buffer)].data.data() + view.byteOffset
-        + byte_offset;
+    return gltf.views[part["bufferView"].get<std::size_t>()].data()
+        + part.value("byteOffset", std::size_t(0));
 }
 
 template <typename Element>
-std::vector<Element> read_elements(const tinygltf::Model& model, int index, std::size_t lanes)
+void overlay_sparse(
+    const GltfContainer& gltf, const Json& sparse, Source source, std::vector<Element>& out)
 {
-    const auto& accessor = model.accessors[static_cast<std::size_t>(index)];
-    const std::size_t packed = lanes * component_size(accessor.componentType);
-    std::vector<Element> out(accessor.count, Element(0));
-    if (accessor.bufferView >= 0) {
-        const auto& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
-        const Elements elements{view_bytes(model, accessor.bufferView, accessor.byteOffset),
-            view.byteStride == 0 ? packed : view.byteStride, accessor.componentType,
-            accessor.normalized};
-        for (std::size_t i = 0; i < out.size(); ++i)
-            elements.read(i, out[i]);
-    }
-    if (!accessor.sparse.isSparse)
-        return out;
-    const auto& sparse = accessor.sparse;
-    const Elements places{view_bytes(model, sparse.indices.bufferView,
-                              static_cast<std::size_t>(sparse.indices.byteOffset)),
-        component_size(sparse.indices.componentType), sparse.indices.componentType, false};
-    const Elements values{view_bytes(model, sparse.values.bufferView,
-                              static_cast<std::size_t>(sparse.values.byteOffset)),
-        packed, accessor.componentType, accessor.normalized};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
-        std::uint32_t place = 0;
-        places.read(i, place);
-        if (place < out.size())
-            values.read(i, out[place]);
-    }
-    return out;
+    const auto count = sparse["count"].get<std::size_t>();
+    const int index_type = sparse["indices"]["componentType"].get<int>();
+    std::vector<std::uint32_t> places(count);
+    const ElementLayout scalar = element_layout("SCALAR", index_type);
+    read_all(Source{view_bytes(gltf, sparse["indices"]), scalar.size, scalar, index_type, false},
+        places);
+    std::vector<Element> values(count);
+    source.bytes = view_bytes(gltf, sparse["values"]);
+    source.stride = source.layout.size;
+    read_all(source, values);
+    for (std::size_t i = 0; i < count; ++i)
+        if (places[i] < out.size())
+            out[places[i]] = values[i];
 }
 
 }  // namespace
 
-std::vector<glm::vec3> read_vectors(const tinygltf::Model& model, int accessor)
+template <typename Element>
+std::vector<Element> read_accessor(const GltfContainer& gltf, const Json& index)
 {
-    return read_elements<glm::vec3>(model, accessor, 3);
+    const Json& accessor = gltf.list("accessors")[index.get<std::size_t>()];
+    const int type = accessor["componentType"].get<int>();
+    Source source{nullptr, 0, element_layout(accessor["type"].get_ref<const std::string&>(), type),
+        type, accessor.value("normalized", false)};
+    std::vector<Element> out(accessor["count"].get<std::size_t>(), Element(0));
+    if (accessor.contains("bufferView")) {
+        const Json& view = gltf.list("bufferViews")[accessor["bufferView"].get<std::size_t>()];
+        source.bytes = view_bytes(gltf, accessor);
+        source.stride = view.value("byteStride", source.layout.size);
+        read_all(source, out);
+    }
+    if (accessor.contains("sparse"))
+        overlay_sparse(gltf, accessor["sparse"], source, out);
+    return out;
 }
 
-std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, int accessor)
-{
-    return read_elements<std::uint32_t>(model, accessor, 1);
-}
+template std::vector<float> read_accessor(const GltfContainer&, const Json&);
+template std::vector<glm::vec2> read_accessor(const GltfContainer&, const Json&);
+template std::vector<glm::vec3> read_accessor(const GltfContainer&, const Json&);
+template std::vector<glm::vec4> read_accessor(const GltfContainer&, const Json&);
+template std::vector<glm::mat4> read_accessor(const GltfContainer&, const Json&);
+template std::vector<std::uint32_t> read_accessor(const GltfContainer&, const Json&);
+template std::vector<glm::u16vec4> read_accessor(const GltfContainer&, const Json&);
 
 }  // namespace farlight

@@ -1,4 +1,4 @@
-// glTF component and element types: the codes of the specification, section 3.6.2.2.
+// glTF component and element types: the codes and layouts of the specification, section 3.6.2.
 #pragma once
 
 #include <cstddef>
@@ -25,12 +25,25 @@ constexpr std::size_t component_size(int component_type)
     }
 }
 
-/// Components of an element: 1 for "SCALAR", 2 to 4 for vectors, 0 for matrices.
-constexpr std::size_t lane_count(std::string_view type)
+/// How an accessor's element lies in bytes: a vector is a matrix of one column.
+struct ElementLayout {
+    std::size_t columns;
+    std::size_t rows;
+    std::size_t column_stride;  ///< [byte]; a matrix's columns start at multiples of 4.
+    std::size_t size;  ///< [byte]
+
+    constexpr std::size_t lanes() const { return columns * rows; }
+};
+
+/// `type` is "SCALAR", "VEC2" to "VEC4" or "MAT2" to "MAT4".
+constexpr ElementLayout element_layout(std::string_view type, int component_type)
 {
-    if (type == "SCALAR")
-        return 1;
-    return type.starts_with("VEC") ? static_cast<std::size_t>(type.back() - '0') : 0;
+    const std::size_t digit = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+    const std::size_t column = digit * component_size(component_type);
+    if (!type.starts_with("MAT"))
+        return {1, digit, column, column};
+    const std::size_t stride = (column + 3) / 4 * 4;
+    return {digit, digit, stride, stride * (digit - 1) + column};
 }
 
 }  // namespace farlight

@@ -1,12 +1,13 @@
 // GLB layout: glTF 2.0 specification, chapter 4 "GLB File Format Specification".
 #include "server/scene/gltf_container.h"
 
+#include "server/scene/gltf_extensions.h"
+#include "server/scene/gltf_uri.h"
 #include "server/scene/json_schema.h"
 #include "server/scene/json_text.h"
 #include "server/scene/scene_error.h"
 
 #include <cstdint>
-#include <cstring>
 #include <optional>
 
 namespace farlight {
@@ -69,80 +70,83 @@ Chunks split_glb(std::string_view bytes, const ScenePlace& place)
     return chunks;
 }
 
-/// "a%20b" -> "a b"; glTF file names are URIs.
-std::string percent_decoded(std::string_view uri)
-{
-    const auto digit = [](char c) {
-        const std::string_view digits = "0123456789abcdef";
-        return digits.find(static_cast<char>(c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c));
-    };
-    std::string path;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool coded = uri[i] == '%' && i + 2 < uri.size()
-            && digit(uri[i + 1]) != std::string_view::npos
-            && digit(uri[i + 2]) != std::string_view::npos;
-        if (!coded) {
-            path += uri[i];
-            continue;
-        }
-        path += static_cast<char>(digit(uri[i + 1]) * 16 + digit(uri[i + 2]));
-        i += 2;
-    }
-    return path;
-}
-
-std::vector<unsigned char> cut_to_length(
-    std::string_view bytes, std::size_t length, const ScenePlace& place)
+ByteSpan cut_to_length(ByteSpan bytes, std::size_t length, const ScenePlace& place)
 {
     if (bytes.size() < length)
         refuse(place / "byteLength", std::to_string(length),
             "at most the " + std::to_string(bytes.size()) + " bytes there are");
-    return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length)};
+    return bytes.first(length);
 }
 
-std::vector<unsigned char> read_buffer(const Json& buffer, const std::filesystem::path& folder,
+ByteSpan as_bytes(std::string_view text)
+{
+    return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
+}
+
+ByteSpan read_buffer(GltfContainer& container, const Json& buffer,
     const std::optional<std::string_view>& binary, const ScenePlace& place)
 {
     const std::size_t length = buffer.at("byteLength").get<std::size_t>();
-    if (!buffer.contains("uri")) {
-        if (!binary)
-            refuse(place, "no key \"uri\"", "a uri, or a GLB with a binary chunk");
-        return cut_to_length(*binary, length, place);
-    }
-    const auto& uri = buffer.at("uri").get_ref<const std::string&>();
-    if (is_data_uri(uri))
+    if (buffer.contains("uri"))
+        return cut_to_length(container.keep(read_gltf_uri(buffer.at("uri").get<std::string>(),
+                                 container.folder, place / "uri")),
+            length, place);
+    if (gltf_extension(buffer, "EXT_meshopt_compression") != nullptr)
         return {};
-    const std::filesystem::path path = percent_decoded(uri);
-    if (uri.empty() || uri.find("://") != std::string::npos || path.is_absolute())
-        refuse(place / "uri", in_quotes(uri), "a data URI or a path relative to the file");
-    const std::filesystem::path file = folder / path;
-    if (!std::filesystem::is_regular_file(file))
-        refuse(place / "uri", in_quotes(uri) + ", and no such file", "a file of bytes");
-    return cut_to_length(read_file(file), length, place);
+    if (!binary)
+        refuse(place, "no key \"uri\"", "a uri, or a GLB with a binary chunk");
+    return cut_to_length(as_bytes(*binary), length, place);
 }
 
 }  // namespace
 
-bool is_data_uri(std::string_view uri)
+const Json& GltfContainer::list(const char* name) const
 {
-    return uri.starts_with("data:");
+    static const Json empty = Json::array();
+    const auto found = document.find(name);
+    return found == document.end() ? empty : *found;
+}
+
+const Json& GltfContainer::item(const char* name, const Json& index, const ScenePlace& place) const
+{
+    const Json& all = list(name);
+    if (index.get<std::uint64_t>() >= all.size())
+        refuse(place, "index " + index.dump(),
+            "less than " + std::to_string(all.size()) + ", the number of " + name);
+    return all[index.get<std::size_t>()];
+}
+
+ByteSpan GltfContainer::keep(std::string bytes)
+{
+    return as_bytes(storage.emplace_back(std::move(bytes)));
+}
+
+const Json* gltf_extension(const Json& object, const char* name)
+{
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end())
+        return nullptr;
+    const auto found = extensions->find(name);
+    return found == extensions->end() ? nullptr : &*found;
 }
 
 GltfContainer open_gltf_container(const std::filesystem::path& file)
 {
-    const ScenePlace place{file.string(), {}};
-    const std::string bytes = read_file(file);
+    GltfContainer container;
+    container.root = {file.string(), {}};
+    container.folder = file.parent_path();
+    const std::string& bytes = container.storage.emplace_back(read_file(file));
     Chunks chunks{bytes, std::nullopt};
     if (bytes.starts_with("glTF"))
-        chunks = split_glb(bytes, place);
+        chunks = split_glb(bytes, container.root);
 
-    GltfContainer container;
-    container.document = parse_json(chunks.json, place.file);
-    check_schema(container.document, gltf_schema(), place.file);
-    const Json buffers = container.document.value("buffers", Json::array());
+    container.document = parse_json(chunks.json, container.root.file);
+    check_schema(container.document, gltf_schema(), container.root.file);
+    check_gltf_extensions(container.document, container.root);
+    const Json& buffers = container.list("buffers");
     for (std::size_t i = 0; i < buffers.size(); ++i)
-        container.buffers.push_back(read_buffer(buffers[i], file.parent_path(),
-            i == 0 ? chunks.binary : std::nullopt, place / "buffers" / i));
+        container.buffers.push_back(read_buffer(container, buffers[i],
+            i == 0 ? chunks.binary : std::nullopt, container.root / "buffers" / i));
     return container;
 }
 

@@ -4,21 +4,24 @@
 #include "server/scene/camera_limits.h"
 #include "server/scene/gltf_check.h"
 #include "server/scene/gltf_container.h"
+#include "server/scene/gltf_extensions.h"
 #include "server/scene/gltf_material.h"
 #include "server/scene/gltf_mesh.h"
-#include "server/scene/gltf_model.h"
 #include "server/scene/gltf_node.h"
+#include "server/scene/gltf_views.h"
 #include "server/scene/mesh_repair.h"
+#include "server/scene/mesh_tangents.h"
 #include "server/scene/scene_error.h"
 
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <tiny_gltf.h>
 
 namespace farlight {
 
 namespace {
+
+using Json = nlohmann::json;
 
 /// A primitive as an instance needs it: its mesh, and the mesh with the other winding for
 /// instances that mirror, made when one is met.
@@ -30,16 +33,14 @@ struct Part {
 
 class Reader {
 public:
-    Reader(tinygltf::Model model, const std::string& file)
-        : model_(std::move(model))
-        , root_{file, {}}
+    explicit Reader(const GltfContainer& gltf) : gltf_(gltf), root_(gltf.root)
     {
-        result_.scene.file = file;
+        result_.scene.file = root_.file;
     }
 
     GltfScene read()
     {
-        result_.scene.materials = read_gltf_materials(model_, result_.scene.notes);
+        read_gltf_materials(gltf_, result_.scene);
         read_nodes();
         if (result_.scene.objects.empty())
             refuse(root_ / "scenes", "no mesh of triangles in the scene's nodes", "at least one");
@@ -58,7 +59,7 @@ private:
     void place_camera();
     void note_the_rest();
 
-    tinygltf::Model model_;
+    const GltfContainer& gltf_;
     ScenePlace root_;
     GltfScene result_;
     std::map<std::size_t, std::vector<Part>> parts_;  // by glTF mesh
@@ -71,24 +72,26 @@ private:
 
 void Reader::read_nodes()
 {
-    const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));
-    result_.scene.name = model_.scenes[scene].name;
+    const auto scene = gltf_.document.value("scene", std::size_t(0));
+    result_.scene.name = gltf_.list("scenes")[scene].value("name", "");
     if (result_.scene.name.empty())
         result_.scene.name = std::filesystem::path(root_.file).stem().string();
-    for (const GltfNode& node : gltf_nodes(model_, scene, root_))
+    for (const GltfNode& node : gltf_nodes(gltf_, scene))
         read_node(node);
 }
 
 void Reader::read_node(const GltfNode& node)
 {
-    const tinygltf::Node& found = model_.nodes[node.index];
-    if (found.camera >= 0 && !camera_node_
-        && model_.cameras[static_cast<std::size_t>(found.camera)].type == "perspective")
+    const Json& found = gltf_.list("nodes")[node.index];
+    if (found.contains("camera") && !camera_node_
+        && gltf_.list("cameras")[found["camera"].get<std::size_t>()]["type"] == "perspective")
         camera_node_ = node;
-    if (found.mesh < 0)
+    if (!found.contains("mesh"))
         return;
-    const auto mesh = static_cast<std::size_t>(found.mesh);
-    std::string name = found.name.empty() ? model_.meshes[mesh].name : found.name;
+    const auto mesh = found["mesh"].get<std::size_t>();
+    std::string name = found.value("name", "");
+    if (name.empty())
+        name = gltf_.list("meshes")[mesh].value("name", "");
     if (name.empty())
         name = "node " + std::to_string(node.index);
     std::vector<Part>& parts = parts_of(mesh);
@@ -126,18 +129,24 @@ std::vector<Part>& Reader::parts_of(std::size_t mesh)
     if (!is_new)
         return entry->second;
     const ScenePlace place = root_ / "meshes" / mesh / "primitives";
-    const tinygltf::Mesh& found = model_.meshes[mesh];
-    for (std::size_t i = 0; i < found.primitives.size(); ++i) {
-        const tinygltf::Primitive& primitive = found.primitives[i];
+    const Json& found = gltf_.list("meshes")[mesh];
+    const Json& primitives = found["primitives"];
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const Json& primitive = primitives[i];
         if (!has_triangles(primitive)) {
             ++skipped_primitives_;
             continue;
         }
-        Mesh read = read_gltf_primitive(model_, primitive, place / i, repairs_);
-        read.name = found.name;
-        entry->second.push_back({static_cast<std::uint32_t>(result_.scene.meshes.size()), {},
-            primitive.material >= 0 ? static_cast<std::uint32_t>(primitive.material)
-                                    : default_material()});
+        const std::uint32_t material = primitive.contains("material")
+            ? primitive["material"].get<std::uint32_t>()
+            : default_material();
+        Mesh read = read_gltf_primitive(gltf_, primitive, place / i, repairs_);
+        read.name = found.value("name", "");
+        if (const Texture* normals = normal_map(result_.scene.materials[material]);
+            normals != nullptr && read.tangents.empty())
+            add_tangents(read, normals->uv_set);
+        entry->second.push_back(
+            {static_cast<std::uint32_t>(result_.scene.meshes.size()), {}, material});
         result_.scene.meshes.push_back(std::move(read));
     }
     return entry->second;
@@ -147,7 +156,7 @@ std::uint32_t Reader::default_material()
 {
     if (!default_material_) {
         default_material_ = static_cast<std::uint32_t>(result_.scene.materials.size());
-        result_.scene.materials.push_back({.name = "default"});
+        result_.scene.materials.push_back(default_gltf_material());
     }
     return *default_material_;
 }
@@ -157,8 +166,8 @@ std::uint32_t Reader::default_material()
 void Reader::place_camera()
 {
     const glm::dmat4& world = camera_node_->world_from_node;
-    const auto& found =
-        model_.cameras[static_cast<std::size_t>(model_.nodes[camera_node_->index].camera)];
+    const Json& node = gltf_.list("nodes")[camera_node_->index];
+    const Json& found = gltf_.list("cameras")[node["camera"].get<std::size_t>()];
     const glm::dvec3 position(world[3]);
     const glm::dvec3 view = glm::normalize(-glm::dvec3(world[2]));
     const glm::dvec3 up = glm::normalize(glm::dvec3(world[1]));
@@ -169,7 +178,7 @@ void Reader::place_camera()
     const double nearest = 2 * nearest_target(position, position);
     const double distance =
         ahead > nearest ? ahead : std::max(bounds.radius(), glm::length(position));
-    const double wanted_fov = glm::degrees(found.perspective.yfov);
+    const double wanted_fov = glm::degrees(found["perspective"]["yfov"].get<double>());
     const double fov = std::clamp(wanted_fov, kNarrowestFov, kWidestFov);
     if (fov != wanted_fov)
         result_.scene.notes.push_back("the camera's yfov of " + nlohmann::json(wanted_fov).dump()
@@ -193,7 +202,7 @@ void Reader::note_the_rest()
         notes.push_back(
             std::to_string(flat_instances_) + " objects left out: a scale of 0 makes them flat");
     if (default_material_)
-        notes.emplace_back("primitives without a material are grey, albedo 0.8");
+        notes.emplace_back("primitives without a material are white rough metal, as glTF has it");
 }
 
 std::string joined(const std::vector<std::string>& names)
@@ -210,9 +219,6 @@ void note_unread(const nlohmann::json& document, std::vector<std::string>& notes
     const auto count = [&](const char* key) {
         return document.contains(key) ? document[key].size() : 0;
     };
-    if (const std::size_t textures = count("textures"); textures > 0)
-        notes.push_back(std::to_string(textures) + (textures == 1 ? " texture is" : " textures are")
-            + " not read yet: base colour factors stand for them");
     if (count("animations") + count("skins") > 0)
         notes.emplace_back("animations and skins are not read: everything rests");
     const std::vector<std::string> unread = unread_gltf_extensions(document);
@@ -232,10 +238,11 @@ bool is_gltf(const std::filesystem::path& file)
 
 GltfScene load_gltf(const std::filesystem::path& file)
 {
-    const GltfContainer container = open_gltf_container(file);
-    check_gltf(container.document, file.string());
-    GltfScene result = Reader(to_tinygltf(container, file.string()), file.string()).read();
-    note_unread(container.document, result.scene.notes);
+    GltfContainer gltf = open_gltf_container(file);
+    check_gltf(gltf);
+    read_gltf_views(gltf);
+    GltfScene result = Reader(gltf).read();
+    note_unread(gltf.document, result.scene.notes);
     return result;
 }
 

@@ -4,23 +4,27 @@
 #include "server/scene/gltf_accessor.h"
 
 #include <numeric>
-#include <tiny_gltf.h>
 
 namespace farlight {
 
 namespace {
 
+using Json = nlohmann::json;
+
+constexpr int kTriangles = 4;
+constexpr int kFan = 6;
+
 /// Winding as the specification says: every second triangle of a strip is turned about.
 std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& corners, int mode)
 {
     std::vector<glm::uvec3> triangles;
-    if (mode == TINYGLTF_MODE_TRIANGLES) {
+    if (mode == kTriangles) {
         for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
             triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
         return triangles;
     }
     for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
-        if (mode == TINYGLTF_MODE_TRIANGLE_FAN)
+        if (mode == kFan)
             triangles.emplace_back(corners[0], corners[i + 1], corners[i + 2]);
         else if (i % 2 == 0)
             triangles.emplace_back(corners[i], corners[i + 1], corners[i + 2]);
@@ -35,7 +39,7 @@ void check_corners(const std::vector<std::uint32_t>& corners, std::size_t positi
 {
     if (corners.size() < 3)
         refuse(place, std::to_string(corners.size()) + " corners", "at least one triangle");
-    if (mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)
+    if (mode == kTriangles && corners.size() % 3 != 0)
         refuse(place, std::to_string(corners.size()) + " corners", "a multiple of 3");
     for (std::size_t i = 0; i < corners.size(); ++i)
         if (corners[i] >= positions)
@@ -44,32 +48,64 @@ void check_corners(const std::vector<std::uint32_t>& corners, std::size_t positi
                 "less than " + std::to_string(positions) + ", the number of positions");
 }
 
-}  // namespace
-
-bool has_triangles(const tinygltf::Primitive& primitive)
+/// The attribute's elements; none if the primitive has none of that name.
+template <typename Element>
+std::vector<Element> attribute(const GltfContainer& gltf, const Json& attributes, const char* name)
 {
-    return primitive.mode >= TINYGLTF_MODE_TRIANGLES;
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? std::vector<Element>()
+                                     : read_accessor<Element>(gltf, *found);
 }
 
-Mesh read_gltf_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-    const ScenePlace& place, MeshRepairs& repairs)
+std::vector<glm::vec4> read_colors(const GltfContainer& gltf, const Json& attributes)
+{
+    const auto found = attributes.find("COLOR_0");
+    if (found == attributes.end())
+        return {};
+    if (gltf.list("accessors")[found->get<std::size_t>()]["type"] == "VEC4")
+        return read_accessor<glm::vec4>(gltf, *found);
+    std::vector<glm::vec4> colors;
+    for (const glm::vec3& color : read_accessor<glm::vec3>(gltf, *found))
+        colors.emplace_back(color, 1);
+    return colors;
+}
+
+Mesh read_attributes(const GltfContainer& gltf, const Json& attributes)
 {
     Mesh mesh;
-    mesh.positions = read_vectors(model, primitive.attributes.at("POSITION"));
-    if (const auto normals = primitive.attributes.find("NORMAL");
-        normals != primitive.attributes.end())
-        mesh.normals = read_vectors(model, normals->second);
+    mesh.positions = attribute<glm::vec3>(gltf, attributes, "POSITION");
+    mesh.normals = attribute<glm::vec3>(gltf, attributes, "NORMAL");
+    if (!mesh.normals.empty())  // without normals, given tangents have no meaning (glTF)
+        mesh.tangents = attribute<glm::vec4>(gltf, attributes, "TANGENT");
+    mesh.uvs[0] = attribute<glm::vec2>(gltf, attributes, "TEXCOORD_0");
+    mesh.uvs[1] = attribute<glm::vec2>(gltf, attributes, "TEXCOORD_1");
+    mesh.colors = read_colors(gltf, attributes);
+    return mesh;
+}
 
+}  // namespace
+
+bool has_triangles(const Json& primitive)
+{
+    return primitive.value("mode", kTriangles) >= kTriangles;
+}
+
+Mesh read_gltf_primitive(
+    const GltfContainer& gltf, const Json& primitive, const ScenePlace& place, MeshRepairs& repairs)
+{
+    Mesh mesh = read_attributes(gltf, primitive["attributes"]);
+    const int mode = primitive.value("mode", kTriangles);
+    const bool indexed = primitive.contains("indices");
     std::vector<std::uint32_t> corners;
-    if (primitive.indices >= 0) {
-        corners = read_indices(model, primitive.indices);
+    if (indexed) {
+        corners = read_accessor<std::uint32_t>(gltf, primitive["indices"]);
     } else {
         corners.resize(mesh.positions.size());
         std::iota(corners.begin(), corners.end(), 0U);
     }
-    check_corners(corners, mesh.positions.size(), primitive.mode,
-        primitive.indices >= 0 ? place / "indices" : place / "attributes" / "POSITION");
-    mesh.triangles = assemble(corners, primitive.mode);
+    check_corners(corners, mesh.positions.size(), mode,
+        indexed ? place / "indices" : place / "attributes" / "POSITION");
+    mesh.triangles = assemble(corners, mode);
     const MeshRepairs made = repair_mesh(mesh);
     if (mesh.triangles.empty()) {
         std::string found = "no triangle that is left";

@@ -1,6 +1,8 @@
 // Merging a glTF file into a scene.
 #include "server/scene/mesh_file_cache.h"
 
+#include "server/scene/material_textures.h"
+
 #include <iterator>
 
 namespace farlight {
@@ -35,6 +37,7 @@ MeshFileCache::Entry& MeshFileCache::entry(
     Entry& entry = entries_[path];
     entry.objects = std::move(loaded.objects);
     entry.materials = std::move(loaded.materials);
+    entry.images = std::move(loaded.images);
     entry.first_mesh = static_cast<std::uint32_t>(scene.meshes.size());
     std::move(loaded.meshes.begin(), loaded.meshes.end(), std::back_inserter(scene.meshes));
     for (const std::string& note : loaded.notes)
@@ -48,7 +51,14 @@ void MeshFileCache::add_instances(
     Entry& file = entry(scene, object.path, place);
     if (!object.material && !file.first_material) {
         file.first_material = static_cast<std::uint32_t>(scene.materials.size());
-        scene.materials.insert(scene.materials.end(), file.materials.begin(), file.materials.end());
+        const auto first_image = static_cast<std::uint32_t>(scene.images.size());
+        for (Material& material : file.materials) {
+            for (Texture* texture : textures_of(material))
+                if (texture->used())
+                    texture->image += first_image;
+            scene.materials.push_back(std::move(material));
+        }
+        std::move(file.images.begin(), file.images.end(), std::back_inserter(scene.images));
     }
     for (const Object& part : file.objects) {
         Object added = part;

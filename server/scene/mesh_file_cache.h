@@ -30,6 +30,7 @@ private:
         std::uint32_t first_mesh = 0;  // where the file's meshes lie in the scene
         std::optional<std::uint32_t> first_material;  // empty until an object needs them
         std::vector<Material> materials;  // of the file
+        std::vector<Image8> images;  // of the file, until its materials are added
     };
 
     Entry& entry(Scene& scene, const std::string& path, const ScenePlace& place);

@@ -1,9 +1,12 @@
 // Repairs of a mesh, counted.
 #include "server/scene/mesh_repair.h"
 
+#include "server/scene/mesh_vertices.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace farlight {
@@ -29,27 +32,6 @@ glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& triangle)
     return glm::length(area) > noise * glm::length(u) * glm::length(v) ? area : glm::dvec3(0);
 }
 
-void drop_unused_positions(Mesh& mesh)
-{
-    constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> moved(mesh.positions.size(), kUnused);
-    for (const glm::uvec3& triangle : mesh.triangles)
-        for (int corner = 0; corner < 3; ++corner)
-            moved[triangle[corner]] = 0;
-    std::uint32_t kept = 0;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-        if (moved[i] != kUnused) {
-            mesh.positions[kept] = mesh.positions[i];
-            if (!mesh.normals.empty())
-                mesh.normals[kept] = mesh.normals[i];
-            moved[i] = kept++;
-        }
-    mesh.positions.resize(kept);
-    mesh.normals.resize(mesh.normals.empty() ? 0 : kept);
-    for (glm::uvec3& triangle : mesh.triangles)
-        triangle = {moved[triangle.x], moved[triangle.y], moved[triangle.z]};
-}
-
 /// Sum of the area vectors of the faces around each position.
 std::vector<glm::dvec3> face_normals(const Mesh& mesh)
 {
@@ -60,13 +42,19 @@ std::vector<glm::dvec3> face_normals(const Mesh& mesh)
     return sums;
 }
 
+/// Whether the vector has a direction: neither zero nor beyond floats.
+bool has_direction(double length)
+{
+    return length > 0 && length <= std::numeric_limits<float>::max();
+}
+
 std::size_t repair_normals(Mesh& mesh)
 {
     std::size_t replaced = 0;
     std::vector<glm::dvec3> around;
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
         const double length = glm::length(glm::dvec3(mesh.normals[i]));
-        if (length > 0 && length <= std::numeric_limits<float>::max()) {
+        if (has_direction(length)) {
             mesh.normals[i] = glm::dvec3(mesh.normals[i]) / length;
             continue;
         }
@@ -77,6 +65,44 @@ std::size_t repair_normals(Mesh& mesh)
         mesh.normals[i] = faces > 0 ? around[i] / faces : glm::dvec3(0, 1, 0);
     }
     return replaced;
+}
+
+/// Brings tangents to unit length and their signs to +-1; drops all where one has no direction.
+std::size_t repair_tangents(Mesh& mesh)
+{
+    std::size_t bad = 0;
+    for (glm::vec4& tangent : mesh.tangents) {
+        const double length = glm::length(glm::dvec3(tangent));
+        bad += has_direction(length) ? 0 : 1;
+        tangent = glm::dvec4(glm::dvec3(tangent) / length, tangent.w < 0 ? -1 : 1);
+    }
+    if (bad > 0)
+        mesh.tangents.clear();
+    return bad;
+}
+
+std::size_t repair_uvs(Mesh& mesh)
+{
+    std::size_t replaced = 0;
+    for (auto& uvs : mesh.uvs)
+        for (glm::vec2& uv : uvs)
+            if (!(std::isfinite(uv.x) && std::isfinite(uv.y))) {
+                uv = glm::vec2(0);
+                ++replaced;
+            }
+    return replaced;
+}
+
+std::size_t repair_colors(Mesh& mesh)
+{
+    std::size_t changed = 0;
+    for (glm::vec4& color : mesh.colors) {
+        const glm::vec4 found = color;
+        for (int i = 0; i < 4; ++i)
+            color[i] = found[i] >= 0 ? std::min(found[i], 1.0F) : 0.0F;  // NaN: 0
+        changed += color == found ? 0 : 1;
+    }
+    return changed;
 }
 
 std::string counted(std::size_t count, const char* one, const char* many)
@@ -91,6 +117,9 @@ MeshRepairs& MeshRepairs::operator+=(const MeshRepairs& other)
     zero_area_triangles += other.zero_area_triangles;
     unbounded_triangles += other.unbounded_triangles;
     replaced_normals += other.replaced_normals;
+    dropped_tangents += other.dropped_tangents;
+    replaced_uvs += other.replaced_uvs;
+    changed_colors += other.changed_colors;
     return *this;
 }
 
@@ -106,6 +135,15 @@ std::vector<std::string> MeshRepairs::notes() const
     if (replaced_normals > 0)
         notes.push_back(counted(replaced_normals, "shading normal", "shading normals")
             + " without a direction replaced by the faces around");
+    if (dropped_tangents > 0)
+        notes.push_back(counted(dropped_tangents, "tangent", "tangents")
+            + " without a direction: its mesh gets new ones where it needs any");
+    if (replaced_uvs > 0)
+        notes.push_back(counted(replaced_uvs, "texture coordinate", "texture coordinates")
+            + " that are not finite replaced by 0, 0");
+    if (changed_colors > 0)
+        notes.push_back(
+            counted(changed_colors, "vertex colour", "vertex colours") + " outside [0, 1] clamped");
     return notes;
 }
 
@@ -126,8 +164,11 @@ MeshRepairs repair_mesh(Mesh& mesh)
             kept.push_back(triangle);
     }
     mesh.triangles = std::move(kept);
-    drop_unused_positions(mesh);
+    drop_unused_vertices(mesh);
     repairs.replaced_normals = repair_normals(mesh);
+    repairs.dropped_tangents = repair_tangents(mesh);
+    repairs.replaced_uvs = repair_uvs(mesh);
+    repairs.changed_colors = repair_colors(mesh);
     return repairs;
 }
 
@@ -156,6 +197,8 @@ Mesh rewound(const Mesh& mesh)
     Mesh turned = mesh;
     for (glm::uvec3& triangle : turned.triangles)
         std::swap(triangle.y, triangle.z);
+    for (glm::vec4& tangent : turned.tangents)
+        tangent.w = -tangent.w;  // normal x tangent turns about with a mirror
     return turned;
 }
 

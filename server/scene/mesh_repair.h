@@ -15,14 +15,18 @@ struct MeshRepairs {
     std::size_t zero_area_triangles = 0;  ///< Dropped.
     std::size_t unbounded_triangles = 0;  ///< Dropped: a corner is not finite or too far out.
     std::size_t replaced_normals = 0;  ///< Not finite or zero; now the mean of the faces around.
+    std::size_t dropped_tangents = 0;  ///< Not finite or zero.
+    std::size_t replaced_uvs = 0;  ///< Not finite; now 0.
+    std::size_t changed_colors = 0;  ///< Now in [0, 1].
 
     MeshRepairs& operator+=(const MeshRepairs& other);
     /// One sentence a kind of repair that was made, for Scene::notes.
     std::vector<std::string> notes() const;
 };
 
-/// Drops triangles that have no area or no finite corner, then positions that no triangle needs any
-/// more; brings the normals to unit length. The mesh may come out empty.
+/// Drops triangles that have no area or no finite corner, then vertices that no triangle needs any
+/// more; brings normals and tangents to unit length, the rest to finite numbers. The mesh may come
+/// out empty.
 /// Asserts that triangles index positions and that there are as many normals as positions, or none.
 MeshRepairs repair_mesh(Mesh& mesh);
 
@@ -30,7 +34,7 @@ MeshRepairs repair_mesh(Mesh& mesh);
 Mesh unit_cube();
 
 /// The mesh with each triangle's winding turned about: for instances that mirror, so that triangles
-/// stay counter-clockwise seen from outside in world space.
+/// stay counter-clockwise seen from outside in world space, and each tangent's sign.
 Mesh rewound(const Mesh& mesh);
 
 }  // namespace farlight

@@ -63,6 +63,16 @@ int GltfBuilder::add_bytes(
     return static_cast<int>(document["accessors"].size()) - 1;
 }
 
+int GltfBuilder::add_view(std::string_view raw)
+{
+    bytes = padded(bytes, '\0');
+    document["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", raw.size()}});
+    bytes.append(raw);
+    document["buffers"] = {{{"byteLength", bytes.size()}}};
+    return static_cast<int>(document["bufferViews"].size()) - 1;
+}
+
 int GltfBuilder::add_mesh(Json primitive)
 {
     document["meshes"].push_back({{"primitives", Json::array({std::move(primitive)})}});
@@ -85,11 +95,15 @@ void GltfBuilder::write_gltf(const std::filesystem::path& file, bool embedded) c
 {
     Json copy = document;
     const std::string name = file.filename().string() + ".bin";
-    copy["buffers"][0]["uri"] =
-        embedded ? "data:application/octet-stream;base64," + base64(bytes) : name;
+    copy["buffers"][0]["uri"] = embedded ? data_uri("application/octet-stream", bytes) : name;
     std::ofstream(file) << copy.dump();
     if (!embedded)
         std::ofstream(file.parent_path() / name, std::ios::binary) << bytes;
+}
+
+std::string data_uri(const std::string& type, std::string_view bytes)
+{
+    return "data:" + type + ";base64," + base64(bytes);
 }
 
 GltfBuilder triangle_gltf()

@@ -20,6 +20,9 @@ struct GltfBuilder {
     int add(const std::vector<T>& values, const std::string& type, std::size_t stride = 0,
         bool normalized = false);
 
+    /// Appends bytes as a buffer view, whose index it returns.
+    int add_view(std::string_view raw);
+
     /// Adds a mesh of one primitive and a node with it in scene 0; returns the mesh's index.
     int add_mesh(nlohmann::json primitive);
 
@@ -31,6 +34,9 @@ private:
     int add_bytes(std::string_view raw, std::size_t element, std::size_t count, std::size_t stride,
         nlohmann::json accessor);
 };
+
+/// "data:TYPE;base64,...".
+std::string data_uri(const std::string& type, std::string_view bytes);
 
 /// One triangle, (0,0,0) (1,0,0) (0,1,0), indexed by unsigned shorts; one node.
 GltfBuilder triangle_gltf();
