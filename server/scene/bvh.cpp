@@ -15,6 +15,9 @@
 namespace farlight {
 namespace {
 
+/// Of a leaf's word, by PrimitiveKind.
+constexpr std::array<unsigned, kPrimitiveKinds> kLeafKind{BVH_TRIANGLES, BVH_SPHERES, BVH_DISKS};
+
 /// A node while Embree builds it; lives in Embree's arena.
 struct BuildNode {
     unsigned count = 0;  ///< Children of an inner node, primitives of a leaf.
@@ -107,7 +110,7 @@ Tree build_tree(RTCDevice device, std::vector<RTCBuildPrimitive> primitives)
 /// Writes nodes depth first.
 class Packer {
 public:
-    Packer(Bvh& bvh, unsigned kind_bit) : bvh_(bvh), kind_bit_(kind_bit) { }
+    explicit Packer(Bvh& bvh) : bvh_(bvh) { }
 
     unsigned pack(const BuildNode& node)
     {
@@ -115,7 +118,7 @@ public:
             const auto first = static_cast<unsigned>(bvh_.order.size()) - first_of_kind_;
             bvh_.order.insert(
                 bvh_.order.end(), node.primitives.begin(), node.primitives.begin() + node.count);
-            return BVH_LEAF_BIT | kind_bit_ | ((node.count - 1) << BVH_COUNT_SHIFT) | first;
+            return BVH_LEAF_BIT | kind_ | ((node.count - 1) << BVH_COUNT_SHIFT) | first;
         }
         std::array<const BuildNode*, kBvhWidth> children{};
         std::copy(node.children.begin(), node.children.begin() + node.count, children.begin());
@@ -136,9 +139,9 @@ public:
         return at;
     }
 
-    void begin_kind(unsigned kind_bit)
+    void begin_kind(PrimitiveKind kind)
     {
-        kind_bit_ = kind_bit;
+        kind_ = kLeafKind[static_cast<std::size_t>(kind)];
         first_of_kind_ = static_cast<unsigned>(bvh_.order.size());
     }
 
@@ -160,7 +163,7 @@ private:
     }
 
     Bvh& bvh_;
-    unsigned kind_bit_;
+    unsigned kind_ = BVH_TRIANGLES;
     unsigned first_of_kind_ = 0;
 };
 
@@ -196,41 +199,48 @@ RTCBuildPrimitive embree_primitive(const PrimitiveBounds& bounds, std::size_t in
     return primitive;
 }
 
+/// The root's children are the trees of the kinds; an inner tree that is alone is its own root.
+void pack_trees(Bvh& bvh, const std::array<Tree, kPrimitiveKinds>& trees)
+{
+    Packer packer(bvh);
+    const auto there = [](const Tree& tree) { return tree.root != nullptr; };
+    const auto first = std::find_if(trees.begin(), trees.end(), there);
+    if (std::count_if(trees.begin(), trees.end(), there) == 1 && !first->root->leaf) {
+        packer.begin_kind(static_cast<PrimitiveKind>(first - trees.begin()));
+        packer.pack(*first->root);
+        return;
+    }
+    packer.pack_children({}, {});
+    for (int kind = 0; kind < kPrimitiveKinds; ++kind) {
+        const Tree& tree = trees[static_cast<std::size_t>(kind)];
+        if (tree.root == nullptr)
+            continue;
+        packer.begin_kind(static_cast<PrimitiveKind>(kind));
+        const unsigned word = packer.pack(*tree.root);  // may move bvh.nodes
+        bvh.nodes[6][kind] = word;
+        const RTCBounds& b = tree.bounds;
+        const std::array<float, 6> box{
+            b.lower_x, b.lower_y, b.lower_z, b.upper_x, b.upper_y, b.upper_z};
+        for (unsigned k = 0; k < 6; ++k)
+            bvh.nodes[k][kind] = std::bit_cast<unsigned>(box[k]);
+    }
+}
+
 }  // namespace
 
-Bvh build_bvh(std::span<const PrimitiveBounds> bounds, std::span<const std::uint8_t> kind_of)
+Bvh build_bvh(std::span<const PrimitiveBounds> bounds, std::span<const PrimitiveKind> kind_of)
 {
     assert(bounds.size() == kind_of.size());
-    std::array<std::vector<RTCBuildPrimitive>, 2> primitives;
+    std::array<std::vector<RTCBuildPrimitive>, kPrimitiveKinds> primitives;
     for (std::size_t i = 0; i < bounds.size(); ++i)
-        primitives[kind_of[i]].push_back(embree_primitive(bounds[i], i));
+        primitives[static_cast<std::size_t>(kind_of[i])].push_back(embree_primitive(bounds[i], i));
 
     const Device embree;
+    std::array<Tree, kPrimitiveKinds> trees;
+    for (std::size_t kind = 0; kind < trees.size(); ++kind)
+        trees[kind] = build_tree(embree.device, std::move(primitives[kind]));
     Bvh bvh;
-    std::array<Tree, 2> trees{build_tree(embree.device, std::move(primitives[0])),
-        build_tree(embree.device, std::move(primitives[1]))};
-
-    // The root's children are the trees of the two kinds; a lone inner tree is its own root.
-    Packer packer(bvh, 0);
-    const bool lone = trees[0].root != nullptr && trees[1].root == nullptr && !trees[0].root->leaf;
-    if (lone) {
-        packer.pack(*trees[0].root);
-    } else {
-        packer.pack_children({}, {});
-        for (int kind = 0; kind < 2; ++kind) {
-            const Tree& tree = trees[static_cast<std::size_t>(kind)];
-            packer.begin_kind(kind == 0 ? 0 : BVH_SPHERE_BIT);
-            if (tree.root == nullptr)
-                continue;
-            const unsigned word = packer.pack(*tree.root);  // may move bvh.nodes
-            bvh.nodes[6][kind] = word;
-            const RTCBounds& b = tree.bounds;
-            const std::array<float, 6> box{
-                b.lower_x, b.lower_y, b.lower_z, b.upper_x, b.upper_y, b.upper_z};
-            for (unsigned k = 0; k < 6; ++k)
-                bvh.nodes[k][kind] = std::bit_cast<unsigned>(box[k]);
-        }
-    }
+    pack_trees(bvh, trees);
     for (const Tree& tree : trees)
         if (tree.arena != nullptr)
             rtcReleaseBVH(tree.arena);

@@ -20,16 +20,19 @@ constexpr int kBvhMaxLeaf = 4;
 
 struct Bvh {
     std::vector<glm::uvec4>
-        nodes;  ///< kBvhNodeTexels texels a node, root first; layout in geometry/bvh.glsl.
+        nodes;  ///< BVH_NODE_TEXELS texels a node, root first (shaders/shared/scene_layout.h).
     std::vector<std::uint32_t> order;  ///< Leaf slot k holds primitive order[k].
     int stack_depth = 0;  ///< Most entries the traversal stack can ever hold.
 };
 
+enum class PrimitiveKind : std::uint8_t { kTriangle, kSphere, kDisk };
+constexpr int kPrimitiveKinds = 3;
+
 /// Builds with Embree's builder (surface area heuristic); deterministic for equal input.
 ///
-/// Primitives may be of several kinds as long as each leaf holds one kind: `kind_of[i]` in [0, 1]
-/// (0 triangle, 1 sphere) keeps them apart. Throws std::invalid_argument naming the first primitive
+/// Primitives may be of several kinds: each leaf holds one kind, and in `order` all of a kind stand
+/// together, in the order of PrimitiveKind. Throws std::invalid_argument naming the first primitive
 /// with non-finite bounds. An empty input gives a root without children.
-Bvh build_bvh(std::span<const PrimitiveBounds> bounds, std::span<const std::uint8_t> kind_of);
+Bvh build_bvh(std::span<const PrimitiveBounds> bounds, std::span<const PrimitiveKind> kind_of);
 
 }  // namespace farlight

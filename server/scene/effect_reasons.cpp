@@ -277,6 +277,17 @@ Reason textures(const Scene& scene, const SceneContent& content)
     return reason;
 }
 
+Reason second_uvs(const Scene& scene, const SceneContent& content)
+{
+    return by_material(scene, content, "texture of uv set 1", [](const Material& material) {
+        bool second = false;
+        each_texture(material, [&](const Texture& texture) {
+            second = second || (texture.used() && texture.uv_set == 1);
+        });
+        return second;
+    });
+}
+
 Reason normal_maps(const Scene& scene, const SceneContent& content)
 {
     return by_material(scene, content, "normal map", [](const Material& m) {

@@ -25,6 +25,7 @@ Reason light_tree(const Scene& scene, const SceneContent& content);
 Reason background(const Scene& scene, const SceneContent& content);
 Reason environment_map(const Scene& scene, const SceneContent& content);
 Reason textures(const Scene& scene, const SceneContent& content);
+Reason second_uvs(const Scene& scene, const SceneContent& content);
 Reason normal_maps(const Scene& scene, const SceneContent& content);
 Reason vertex_colors(const Scene& scene, const SceneContent& content);
 Reason rough_reflection(const Scene& scene, const SceneContent& content);

@@ -43,6 +43,8 @@ std::vector<Effect> make_registry()
             {"background"sv, "lights"sv}, why::environment_map},
         {"textures", "FX_TEXTURES", "texture arrays, texture coordinates, ray cones", {},
             why::textures},
+        {"second_uvs", "FX_SECOND_UVS", "second set of texture coordinates",
+            {"textures"sv, "triangles"sv}, why::second_uvs},
         {"normal_maps", "FX_NORMAL_MAPS", "tangents, perturbed normals", {"textures"sv},
             why::normal_maps},
         {"vertex_colors", "FX_VERTEX_COLORS", "colour buffer", {"triangles"sv}, why::vertex_colors},

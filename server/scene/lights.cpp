@@ -1,10 +1,35 @@
 // Power and the alias table, in double precision.
 #include "server/scene/lights.h"
 
+#include "shaders/shared/scene_layout.h"
+
 #include <cassert>
 #include <numbers>
 
 namespace farlight {
+
+Light light_of(const Sphere& sphere)
+{
+    Light light{.kind = LIGHT_SPHERE, .p0 = glm::vec3(sphere.center)};
+    light.edge_u.x = static_cast<float>(sphere.radius);
+    light.area = static_cast<float>(4 * std::numbers::pi * sphere.radius * sphere.radius);
+    return light;
+}
+
+Light light_of_quad(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v)
+{
+    Light light{.kind = LIGHT_QUAD, .p0 = p0, .edge_u = edge_u, .edge_v = edge_v};
+    light.area = glm::length(glm::cross(edge_u, edge_v));
+    return light;
+}
+
+Light light_of_triangle(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v)
+{
+    Light light = light_of_quad(p0, edge_u, edge_v);
+    light.kind = LIGHT_TRIANGLE;
+    light.area *= 0.5F;
+    return light;
+}
 
 double luminance(const glm::dvec3& rgb)
 {
@@ -49,6 +74,20 @@ void fill_alias_table(std::span<Light> lights)
             lights[i].alias_threshold = 1;
             lights[i].alias = i;
         }
+}
+
+Texels pack_lights(std::span<const Light> lights)
+{
+    Texels texels;
+    for (const Light& light : lights) {
+        texels.emplace_back(light.kind | (light.emits_both_sides ? LIGHT_EMITS_BOTH_SIDES : 0), 0,
+            bits(light.pmf), bits(light.area));
+        texels.push_back(texel(light.p0, bits(light.alias_threshold)));
+        texels.push_back(texel(light.edge_u, light.alias));
+        texels.push_back(texel(light.edge_v, 0));
+        texels.push_back(texel(light.radiance, 0));
+    }
+    return texels;
 }
 
 }  // namespace farlight

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "server/scene/scene.h"
+#include "server/scene/texels.h"
 
 #include <cstdint>
 #include <span>
@@ -28,6 +29,11 @@ struct Light {
     std::uint32_t alias = 0;
 };
 
+/// Shapes as lights, without material and power.
+Light light_of(const Sphere& sphere);
+Light light_of_quad(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v);
+Light light_of_triangle(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v);
+
 /// Luminance of linear Rec. 709 RGB.
 double luminance(const glm::dvec3& rgb);
 
@@ -38,5 +44,8 @@ double light_power(const Light& light, const Material& material);
 /// Vose's alias method over `power`, in double precision. Every light must have power > 0.
 /// Source: Vose 1991, "A linear algorithm for generating random numbers with a given distribution".
 void fill_alias_table(std::span<Light> lights);
+
+/// LIGHT_TEXELS a light (shaders/shared/scene_layout.h).
+Texels pack_lights(std::span<const Light> lights);
 
 }  // namespace farlight

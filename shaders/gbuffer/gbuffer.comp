@@ -52,14 +52,13 @@ void main()
     const Ray ray = Ray(frame.camera.position, normalize(direction));
     const Hit hit = closest_hit(ray, T_INFINITY);
     const Surface s = surface_at(hit, ray);
-    const Primitive primitive = load_primitive(s.primitive);
-    const Material material = load_material(primitive.material);
+    const Material material = load_material(s.material);
     const vec3 depth = depth_and_gradient(direction, s.position, s.geometric_normal);
 
     const bool met = hit.slot != NO_HIT;
     imageStore(out_surface, px, met ? uvec4(floatBitsToUint(depth), pack_octahedral(s.shading_normal)) : uvec4(0u));
     imageStore(out_identity, px,
-        met ? uvec4(primitive.object, primitive.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
+        met ? uvec4(s.object, s.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
     imageStore(out_position, px, met ? vec4(s.position, s.offset) : vec4(0.0));
     imageStore(out_albedo, px, met ? vec4(material.albedo, 1.0) : vec4(0.0));
     imageStore(out_emission, px, vec4(met ? emitted(material, s.front) : environment_radiance(ray.direction), 1.0));

@@ -1,4 +1,4 @@
-// Rays, hits, and the tests against boxes, triangles and spheres. Free of any buffer, so they can be tested alone.
+// Rays, hits, and the tests against triangles, spheres and disks. Free of any buffer, so they can be tested alone.
 #pragma once
 #include "lib/numbers.glsl"
 
@@ -12,7 +12,7 @@ struct Ray {
 
 struct Hit {
     float t;
-    uint slot;         // in leaf order, NO_HIT if none; spheres carry BVH_SPHERE_BIT
+    uint slot;         // BVH_TRIANGLES, BVH_SPHERES ... and the place among these in leaf order; NO_HIT if none
     vec2 barycentric;  // weights of the second and third vertex
 };
 
@@ -87,4 +87,15 @@ float intersect_sphere(Traversal ray, vec3 center, float radius, float t_max)
     const float t_b = max(q, other);
     const float t = t_a > 0.0 ? t_a : t_b;
     return t > 0.0 && t < t_max ? t : -1.0;
+}
+
+// Distance to a disk, or a negative number. Seen edge-on it is not met.
+float intersect_disk(Traversal ray, vec3 center, vec3 normal, float radius, float t_max)
+{
+    precise const vec3 to_center = center - ray.origin;
+    precise const float along = dot(ray.direction, normal);
+    precise const float t = dot(to_center, normal) / along;
+    precise const vec3 from_center = t * ray.direction - to_center;
+    const bool inside = dot(from_center, from_center) <= radius * radius;
+    return along != 0.0 && inside && t > 0.0 && t < t_max ? t : -1.0;
 }

@@ -3,27 +3,34 @@
 #include "shared/scene_layout.h"
 
 uniform usamplerBuffer bvh_nodes;
-uniform usamplerBuffer primitives;
 uniform usamplerBuffer materials;
 #ifdef FX_TRIANGLES
 uniform usamplerBuffer triangles;
+#ifdef FX_SHADING_NORMALS
+uniform usamplerBuffer normals;
+#endif
+#ifdef FX_TEXTURES
+uniform usamplerBuffer uvs;
+#ifdef FX_SECOND_UVS
+uniform usamplerBuffer uvs1;
+#endif
+#endif
+#ifdef FX_NORMAL_MAPS
+uniform usamplerBuffer tangents;
+#endif
+#ifdef FX_VERTEX_COLORS
+uniform usamplerBuffer colors;
+#endif
 #endif
 #ifdef FX_SPHERES
 uniform usamplerBuffer spheres;
 #endif
+#ifdef FX_DISKS
+uniform usamplerBuffer disks;
+#endif
 
-struct Primitive {
-    uint object;
-    uint material;
-    uint light;  // index + 1, 0: none
-    bool smooth_normals;
-};
-
-Primitive load_primitive(uint index)
-{
-    const uvec4 texel = texelFetch(primitives, int(index) * PRIMITIVE_TEXELS);
-    return Primitive(texel.x, texel.y, texel.z, texel.w != 0u);
-}
+// A texel of a buffer that may be shorter than others: one that a scene does without has a single texel of zeros.
+uvec4 fetch_attribute(usamplerBuffer source, int at) { return texelFetch(source, min(at, textureSize(source) - 1)); }
 
 struct Material {
     vec3 albedo;

@@ -44,24 +44,35 @@ void order(inout float t_a, inout float t_b, inout uint a, inout uint b)
 
 void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
 {
-    const uint slot = (leaf & BVH_FIRST_MASK) + k;
+    const uint slot = (leaf & (BVH_KIND_MASK | BVH_FIRST_MASK)) + k;
+    const int place = int(slot & BVH_FIRST_MASK);
+    const uint kind = leaf & BVH_KIND_MASK;
 #ifdef FX_TRIANGLES
     {
-        const int at = int(slot) * TRIANGLE_TEXELS;
+        const int at = place * TRIANGLE_TEXELS;
         vec2 barycentric;
         const float t = intersect_triangle(ray, uintBitsToFloat(texelFetch(triangles, at).xyz),
             uintBitsToFloat(texelFetch(triangles, at + 1).xyz), uintBitsToFloat(texelFetch(triangles, at + 2).xyz),
             hit.t, barycentric);
-        if (t > 0.0 && (leaf & BVH_SPHERE_BIT) == 0u)
+        if (t > 0.0 && kind == BVH_TRIANGLES)
             hit = Hit(t, slot, barycentric);
     }
 #endif
 #ifdef FX_SPHERES
     {
-        const vec4 sphere = uintBitsToFloat(texelFetch(spheres, int(slot) * SPHERE_TEXELS));
+        const vec4 sphere = uintBitsToFloat(texelFetch(spheres, place * SPHERE_TEXELS));
         const float t = intersect_sphere(ray, sphere.xyz, sphere.w, hit.t);
-        if (t > 0.0 && (leaf & BVH_SPHERE_BIT) != 0u)
-            hit = Hit(t, slot | BVH_SPHERE_BIT, vec2(0.0));
+        if (t > 0.0 && kind == BVH_SPHERES)
+            hit = Hit(t, slot, vec2(0.0));
+    }
+#endif
+#ifdef FX_DISKS
+    {
+        const vec4 disk = uintBitsToFloat(texelFetch(disks, place * DISK_TEXELS));
+        const vec3 normal = uintBitsToFloat(texelFetch(disks, place * DISK_TEXELS + 1).xyz);
+        const float t = intersect_disk(ray, disk.xyz, normal, disk.w, hit.t);
+        if (t > 0.0 && kind == BVH_DISKS)
+            hit = Hit(t, slot, vec2(0.0));
     }
 #endif
 }

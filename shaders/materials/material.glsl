@@ -18,7 +18,7 @@ vec4 material_texel(uint material, int which)
 // The material of surface `s` seen along unit `wo`, which points away from the surface.
 ShadedMaterial material_at(Surface s, vec3 wo, TextureLookup lookup)
 {
-    const uint material = load_primitive(s.primitive).material;
+    const uint material = s.material;
     const vec4 albedo = material_texel(material, MATERIAL_ALBEDO);
     const uint flags = floatBitsToUint(albedo.w);
     ShadedMaterial m;

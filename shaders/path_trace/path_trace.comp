@@ -62,13 +62,13 @@ vec3 sample_direct(Vertex v, vec4 u)
 #endif
 
 // Radiance met by a BSDF sample, weighted against light sampling.
-vec3 weighted_emission(Vertex v, Material material, Surface s, Primitive primitive, float pdf_bsdf)
+vec3 weighted_emission(Vertex v, Material material, Surface s, float pdf_bsdf)
 {
     const vec3 radiance = emitted(material, s.front);
 #ifdef FX_LIGHTS
     const float pdf_light = light_pdf(
-        max(primitive.light, 1u) - 1u, v.position, v.shading_normal, s.position, s.geometric_normal);
-    if (light_sampling != 0 && primitive.light != 0u)
+        max(s.light, 1u) - 1u, v.position, v.shading_normal, s.position, s.geometric_normal);
+    if (light_sampling != 0 && s.light != 0u)
         return radiance * power_heuristic(pdf_bsdf, pdf_light);
 #endif
     return radiance;
@@ -95,10 +95,9 @@ void trace_path(Vertex v, uvec2 px, uint sample_index, inout vec3 direct, inout 
         const Hit hit = closest_hit(ray, leaves ? T_INFINITY : 0.0);
         const bool met = hit.slot != NO_HIT;
         const Surface s = surface_at(hit, ray);
-        const Primitive primitive = load_primitive(s.primitive);
-        const Material material = load_material(primitive.material);
+        const Material material = load_material(s.material);
         if (met)
-            gathered += weighted_emission(v, material, s, primitive, diffuse_pdf(local.z));
+            gathered += weighted_emission(v, material, s, diffuse_pdf(local.z));
 #ifdef FX_BACKGROUND
         else if (leaves)
             gathered += environment_radiance(wi);

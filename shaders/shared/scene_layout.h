@@ -1,12 +1,17 @@
-// How the scene lies in its buffer textures: read by server/scene/gpu_scene.cpp, bvh.cpp and geometry/*.glsl.
-// All are usamplerBuffer of rgba32ui; floats travel as their bits.
+// How the scene lies in its buffer textures: read by server/scene/*.cpp and geometry/*.glsl.
+// All are usamplerBuffer of rgba32ui; floats travel as their bits. A buffer that a scene has no use for is not there.
 //
 //   bvh_nodes    BVH_NODE_TEXELS a node: lower x of 4 children, lower y, lower z, upper x, upper y, upper z,
 //                4 child words. A child word is a node's first texel, a leaf, or BVH_NO_CHILD.
-//   triangles    3 a triangle, in leaf order: v0.xyz and primitive index, v1.xyz, v2.xyz
-//   spheres      2 a sphere, in leaf order: center.xyz and radius; primitive index
-//   primitives   2 a primitive: object, material, light + 1 (0: none), has shading normals;
-//                its three shading normals, octahedral
+//   triangles    3 a triangle, in leaf order: v0.xyz and object, v1.xyz and material, v2.xyz and light + 1 (0: none)
+//   spheres      2 a sphere: center.xyz and radius; object, material, light + 1
+//   disks        3 a disk: center.xyz and radius; normal.xyz; object, material, light + 1
+//   normals      1 a triangle (FX_SHADING_NORMALS): its three shading normals, octahedral; 1 if it has any
+//   uvs          2 a triangle (FX_TEXTURES): uv of v0 and v1; uv of v2, log2 of sqrt(uv area / world area)
+//   uvs1         likewise the second set (FX_SECOND_UVS)
+//   tangents     1 a triangle (FX_NORMAL_MAPS): its three tangents, octahedral; bit k set where bitangent k is
+//                -cross(normal, tangent)
+//   colors       2 a triangle (FX_VERTEX_COLORS): rgba of v0 and v1, of v2, as halfs
 //   materials    MATERIAL_TEXELS a material, each at its MATERIAL_* offset below
 //   lights       LIGHT_TEXELS a light: LIGHT_* kind and flags, place in light_textures + 1 (0: none), pmf, area;
 //                p0.xyz and alias threshold; edge_u.xyz (sphere, disk: radius) and alias index;
@@ -19,13 +24,18 @@
 #define BVH_NODE_TEXELS 7
 #define BVH_NO_CHILD 0x7fffffffu
 #define BVH_LEAF_BIT 0x80000000u
-#define BVH_SPHERE_BIT 0x40000000u
-#define BVH_COUNT_SHIFT 28          // primitives in the leaf minus one, 2 bits
-#define BVH_FIRST_MASK 0x0fffffffu  // first primitive in leaf order
+#define BVH_KIND_MASK 0x60000000u  // what a leaf holds: one of BVH_TRIANGLES ...
+#define BVH_TRIANGLES 0x00000000u
+#define BVH_SPHERES 0x20000000u
+#define BVH_DISKS 0x40000000u
+#define BVH_COUNT_SHIFT 27          // primitives in the leaf minus one, 2 bits
+#define BVH_FIRST_MASK 0x07ffffffu  // first primitive of its kind, in leaf order
 
 #define TRIANGLE_TEXELS 3
 #define SPHERE_TEXELS 2
-#define PRIMITIVE_TEXELS 2
+#define DISK_TEXELS 3
+#define UV_TEXELS 2
+#define COLOR_TEXELS 2
 #define LIGHT_TEXELS 5
 #define TEXTURE_TEXELS 2
 

@@ -160,7 +160,7 @@ TEST_P(LeakTest, NoRaySlipsBetweenTriangles)
         for (int i = 0; i < 100'000; ++i) {
             const auto first = static_cast<std::size_t>(3 * (random() % packed.content.triangles));
             const auto vertex = [&](std::size_t k) {
-                return glm::uintBitsToFloat(glm::uvec3(packed.triangles[first + k]));
+                return glm::uintBitsToFloat(glm::uvec3(packed.geometry.triangles[first + k]));
             };
             const glm::vec3 origin = center
                 + 0.5F * (glm::vec3(uniform(random), uniform(random), uniform(random)) - 0.5F);

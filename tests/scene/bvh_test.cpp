@@ -1,8 +1,9 @@
 // The packed tree's invariants, and the light table's exactness. No device needed.
 #include "server/scene/bvh.h"
-#include "server/scene/gpu_scene.h"
+#include "server/scene/packed_scene.h"
 #include "shaders/shared/scene_layout.h"
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <gtest/gtest.h>
@@ -26,9 +27,18 @@ std::vector<PrimitiveBounds> random_boxes(std::size_t count)
     return bounds;
 }
 
+PrimitiveKind kind_of_leaf(unsigned word)
+{
+    const unsigned kind = word & BVH_KIND_MASK;
+    return kind == BVH_TRIANGLES ? PrimitiveKind::kTriangle
+        : kind == BVH_SPHERES    ? PrimitiveKind::kSphere
+                                 : PrimitiveKind::kDisk;
+}
+
 /// Walks the packed tree; calls leaf(kind, slot, box of the leaf) for each slot. Returns the
 /// deepest stack seen when every node's children are pushed but the one visited.
-int walk(const Bvh& bvh, const std::function<void(int, unsigned, const PrimitiveBounds&)>& leaf)
+int walk(const Bvh& bvh,
+    const std::function<void(PrimitiveKind, unsigned, const PrimitiveBounds&)>& leaf)
 {
     int deepest = 0;
     const std::function<void(unsigned, int)> visit = [&](unsigned at, int pending) {
@@ -54,7 +64,7 @@ int walk(const Bvh& bvh, const std::function<void(int, unsigned, const Primitive
             }
             const unsigned count = ((word >> BVH_COUNT_SHIFT) & 3U) + 1;
             for (unsigned k = 0; k < count; ++k)
-                leaf((word & BVH_SPHERE_BIT) != 0 ? 1 : 0, (word & BVH_FIRST_MASK) + k, b);
+                leaf(kind_of_leaf(word), (word & BVH_FIRST_MASK) + k, b);
         }
     };
     visit(0, 0);
@@ -62,22 +72,24 @@ int walk(const Bvh& bvh, const std::function<void(int, unsigned, const Primitive
 }
 
 void expect_sound(
-    const std::vector<PrimitiveBounds>& bounds, const std::vector<std::uint8_t>& kinds)
+    const std::vector<PrimitiveBounds>& bounds, const std::vector<PrimitiveKind>& kinds)
 {
     const Bvh bvh = build_bvh(bounds, kinds);
-    std::size_t triangles = 0;
-    for (const std::uint8_t kind : kinds)
-        triangles += kind == 0 ? 1 : 0;
+    const auto first_of = [&](PrimitiveKind kind) {
+        return static_cast<std::size_t>(
+            std::count_if(kinds.begin(), kinds.end(), [&](PrimitiveKind k) { return k < kind; }));
+    };
     std::vector<int> seen(bounds.size(), 0);
-    const int deepest = walk(bvh, [&](int kind, unsigned slot, const PrimitiveBounds& leaf) {
-        const std::size_t at = slot + (kind == 1 ? triangles : 0);
-        ASSERT_LT(at, bvh.order.size());
-        const std::uint32_t primitive = bvh.order[at];
-        ++seen[primitive];
-        EXPECT_EQ(kinds[primitive], kind);
-        EXPECT_TRUE(glm::all(glm::lessThanEqual(leaf.lower, bounds[primitive].lower)));
-        EXPECT_TRUE(glm::all(glm::greaterThanEqual(leaf.upper, bounds[primitive].upper)));
-    });
+    const int deepest =
+        walk(bvh, [&](PrimitiveKind kind, unsigned slot, const PrimitiveBounds& leaf) {
+            const std::size_t at = slot + first_of(kind);
+            ASSERT_LT(at, bvh.order.size());
+            const std::uint32_t primitive = bvh.order[at];
+            ++seen[primitive];
+            EXPECT_EQ(kinds[primitive], kind);
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(leaf.lower, bounds[primitive].lower)));
+            EXPECT_TRUE(glm::all(glm::greaterThanEqual(leaf.upper, bounds[primitive].upper)));
+        });
     EXPECT_EQ(seen, std::vector<int>(bounds.size(), 1)) << "every primitive in one leaf, once";
     EXPECT_EQ(bvh.stack_depth, deepest);
     EXPECT_LE(bvh.nodes.size() / BVH_NODE_TEXELS, 2 * bounds.size() + 1);
@@ -87,11 +99,12 @@ TEST(BvhTest, EveryPrimitiveIsInOneLeafWhoseBoxHoldsIt)
 {
     for (const std::size_t count : {1U, 2U, 4U, 5U, 100U, 20'000U}) {
         const auto bounds = random_boxes(count);
-        expect_sound(bounds, std::vector<std::uint8_t>(count, 0));
-        expect_sound(bounds, std::vector<std::uint8_t>(count, 1));
-        std::vector<std::uint8_t> mixed(count, 0);
-        for (std::size_t i = 0; i < count; i += 3)
-            mixed[i] = 1;
+        for (const PrimitiveKind kind :
+            {PrimitiveKind::kTriangle, PrimitiveKind::kSphere, PrimitiveKind::kDisk})
+            expect_sound(bounds, std::vector<PrimitiveKind>(count, kind));
+        std::vector<PrimitiveKind> mixed(count);
+        for (std::size_t i = 0; i < count; ++i)
+            mixed[i] = static_cast<PrimitiveKind>(i * i % 5 % 3);
         expect_sound(bounds, mixed);
     }
 }
@@ -99,8 +112,8 @@ TEST(BvhTest, EveryPrimitiveIsInOneLeafWhoseBoxHoldsIt)
 TEST(BvhTest, CoincidentPrimitivesDoNotMakeAListOfIt)
 {
     const std::vector<PrimitiveBounds> bounds(10'000, box(glm::vec3(1), 0.5F));
-    expect_sound(bounds, std::vector<std::uint8_t>(bounds.size(), 0));
-    EXPECT_LE(build_bvh(bounds, std::vector<std::uint8_t>(bounds.size(), 0)).stack_depth, 64);
+    expect_sound(bounds, std::vector<PrimitiveKind>(bounds.size()));
+    EXPECT_LE(build_bvh(bounds, std::vector<PrimitiveKind>(bounds.size())).stack_depth, 64);
 }
 
 TEST(BvhTest, AnEmptySceneHasARootWithoutChildren)
@@ -114,7 +127,7 @@ TEST(BvhTest, AnEmptySceneHasARootWithoutChildren)
 TEST(BvhTest, EqualInputGivesAnEqualTree)
 {
     const auto bounds = random_boxes(50'000);
-    const std::vector<std::uint8_t> kinds(bounds.size(), 0);
+    const std::vector<PrimitiveKind> kinds(bounds.size());
     const Bvh first = build_bvh(bounds, kinds);
     for (int i = 0; i < 3; ++i) {
         const Bvh again = build_bvh(bounds, kinds);
@@ -128,7 +141,7 @@ TEST(BvhTest, NonFiniteBoundsAreRefusedByName)
     auto bounds = random_boxes(5);
     bounds[3].upper.y = std::numeric_limits<float>::infinity();
     try {
-        build_bvh(bounds, std::vector<std::uint8_t>(5, 0));
+        build_bvh(bounds, std::vector<PrimitiveKind>(5));
         FAIL() << "accepted";
     } catch (const std::invalid_argument& error) {
         EXPECT_NE(std::string(error.what()).find("primitive 3"), std::string::npos) << error.what();

@@ -110,6 +110,11 @@ std::vector<Pair> pairs_of_materials()
             [](Scene& s) {
                 s.materials[0].albedo_texture = texture_of(s, {kBlack, kWhite});
             }},
+        {"second_uvs",
+            [](Scene& s) {
+                s.materials[0].albedo_texture = texture_of(s, {kBlack, kWhite});
+            },
+            [](Scene& s) { s.materials[0].albedo_texture.uv_set = 1; }},
         {"normal_maps",
             [](Scene& s) {
                 s.materials[0].albedo_texture = texture_of(s, {kBlack, kWhite});
@@ -132,6 +137,8 @@ std::vector<Pair> pairs_of_the_rest()
             [](Scene& s) { s.objects.push_back({.name = "quad", .shape = Quad{}}); }},
         {"spheres", nothing,
             [](Scene& s) { s.objects.push_back({.name = "ball", .shape = Sphere{}}); }},
+        {"disks", nothing,
+            [](Scene& s) { s.objects.push_back({.name = "coin", .shape = Disk{}}); }},
         {"shading_normals", nothing,
             [](Scene& s) { s.meshes[0].normals.assign(3, glm::vec3(0, 0, 1)); }},
         {"sphere_lights",

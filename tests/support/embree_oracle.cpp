@@ -25,7 +25,7 @@ EmbreeOracle::EmbreeOracle(const PackedScene& packed)
     auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
     for (unsigned i = 0; i < 3 * count; ++i) {
-        positions[i] = glm::uintBitsToFloat(glm::uvec3(packed.triangles[i]));
+        positions[i] = glm::uintBitsToFloat(glm::uvec3(packed.geometry.triangles[i]));
         indices[i] = i;
     }
     rtcCommitGeometry(geometry);

@@ -1,0 +1,29 @@
+// A Scene as arrays of 16-byte texels (shaders/shared/scene_layout.h), still on the CPU.
+#pragma once
+
+#include "server/scene/effects.h"
+#include "server/scene/pack_geometry.h"
+
+#include <utility>
+
+namespace farlight {
+
+struct PackedScene {
+    Texels bvh_nodes;
+    PackedGeometry geometry;
+    Texels materials;
+    Texels lights;
+    SceneContent content;
+    std::vector<ActiveEffect> effects;
+    std::size_t dropped_triangles = 0;  ///< Zero area or not finite once in world space.
+    int stack_depth = 0;
+
+    std::size_t light_count() const { return content.polygon_lights + content.sphere_lights; }
+    /// Every table by the name shaders use; empty where the scene has nothing for it.
+    std::vector<std::pair<const char*, const Texels*>> tables() const;
+};
+
+/// Flattens objects, builds the tree and the light table. Needs no GL.
+PackedScene pack_scene(const Scene& scene);
+
+}  // namespace farlight
