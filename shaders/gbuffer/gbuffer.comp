@@ -62,5 +62,5 @@ void main()
     imageStore(out_position, px, met ? vec4(s.position, s.offset) : vec4(0.0));
     imageStore(out_albedo, px, met ? vec4(material.albedo, 1.0) : vec4(0.0));
     imageStore(out_emission, px, vec4(met ? emitted(material, s.front) : environment_radiance(ray.direction), 1.0));
-    imageStore(out_motion, px, met ? motion_of(s.position, s.position) : vec4(0.0));
+    imageStore(out_motion, px, met ? motion_of(s.position, s.prev_position) : vec4(0.0));
 }

@@ -7,6 +7,7 @@
 
 struct Surface {
     vec3 position;          // world space [m], on the surface within `offset`
+    vec3 prev_position;     // where this point of the surface was last frame [m]
     float offset;           // how far a ray must start off the surface to be free of it [m]
     vec3 geometric_normal;  // unit, towards where the ray came from
     vec3 shading_normal;    // unit, interpolated, same side
@@ -162,6 +163,7 @@ Surface surface_at(Hit hit, Ray ray)
     if ((hit.slot & BVH_KIND_MASK) == BVH_DISKS)
         disk_surface(hit, ray, s);
 #endif
+    s.prev_position = s.position;
     face_the_ray(ray, s);
     return s;
 }
