@@ -137,7 +137,7 @@ bool DocumentBuilder::parse_error(
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& file)
+std::string read_file(const std::filesystem::path& file, std::string_view expected)
 {
     const ScenePlace place{file.string(), {}};
     std::error_code error;
@@ -153,7 +153,7 @@ std::string read_file(const std::filesystem::path& file)
     if (stream.bad())
         refuse(place, "a file that cannot be read", "a readable file");
     if (bytes.empty())
-        refuse(place, "an empty file", "a scene");
+        refuse(place, "an empty file", expected);
     return bytes;
 }
 

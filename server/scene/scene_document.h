@@ -10,6 +10,8 @@
 namespace farlight {
 
 /// Immutable and cheap to copy; what edits of one document read from files is kept for the next.
+class SceneFiles;
+
 class SceneDocument {
 public:
     /// A Farlight scene as it is. A glTF file becomes the document {"version": 1, "objects":
@@ -28,7 +30,12 @@ public:
 
 private:
     SceneDocument() = default;
+    /// Another document at the same place.
+    SceneDocument(nlohmann::json document, const SceneDocument& before);
 
+    std::string name_;  // of the file
+    bool is_gltf_ = false;
+    std::shared_ptr<SceneFiles> files_;
     std::shared_ptr<const nlohmann::json> document_;
     std::shared_ptr<const Scene> scene_;
 };

@@ -1,15 +1,18 @@
 // A Farlight scene document, version 1 -> Scene.
 #pragma once
 
-#include "server/scene/scene.h"
+#include "server/scene/scene_files.h"
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 
 namespace farlight {
 
+struct SceneSource {
+    std::string name;  ///< Stands for the document's file in errors.
+    bool is_gltf = false;  ///< The document was made for one glTF file: it gets a default light.
+};
+
 /// `document` is any JSON; it is checked against the schema first. Throws SceneError.
-Scene scene_from_json(
-    const nlohmann::json& document, const std::filesystem::path& base_dir, const std::string& name);
+Scene scene_from_json(const nlohmann::json& document, const SceneSource& source, SceneFiles& files);
 
 }  // namespace farlight

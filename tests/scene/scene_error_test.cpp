@@ -66,12 +66,15 @@ INSTANTIATE_TEST_SUITE_P(Document, BadSceneTest,
             "/version: found 2, expected the version of this format: 1"},
         BadScene{"UnknownKey", R"({"colour": 1})",
             "/colour: found the unknown key \"colour\", expected one of $schema, background, "
-            "camera, camera_paths, description, materials, name, objects, version"},
+            "camera, camera_paths, description, environment, fog, lights, materials, meshes, name, "
+            "objects, timeline, version"},
         BadScene{"KeyWithASlash", R"({"a/b~c": 1})",
             "/a~1b~0c: found the unknown key \"a/b~c\", expected one of $schema, background, "
-            "camera, camera_paths, description, materials, name, objects, version"},
+            "camera, camera_paths, description, environment, fog, lights, materials, meshes, name, "
+            "objects, timeline, version"},
         BadScene{"NoObjects", R"({"objects": []})",
-            "/objects: found an empty array, expected an array of at least one object"},
+            "/objects: found an empty array, expected an array of at least one object, or an "
+            "object with one by each name"},
         BadScene{"NegativeBackground", R"({"background": [0, -1, 0]})",
             "/background: found [0,-1,0], expected three numbers [r, g, b] from 0 to 1e18"}),
     [](const auto& row) { return row.param.name; });
@@ -94,9 +97,29 @@ INSTANTIATE_TEST_SUITE_P(Materials, BadSceneTest,
             "/materials/white/albedo: found [0,0], expected three numbers [r, g, b] from 0 to 1"},
         BadScene{"NotABoolean", R"({"materials": {"white": {"emits_both_sides": "yes"}}})",
             "/materials/white/emits_both_sides: found \"yes\", expected true or false"},
-        BadScene{"UnknownProperty", R"({"materials": {"white": {"roughness": 1}}})",
-            "/materials/white/roughness: found the unknown key \"roughness\", expected one of "
-            "albedo, emission, emits_both_sides"}),
+        BadScene{"UnknownProperty", R"({"materials": {"white": {"texture": {"tint": 1}}}})",
+            "/materials/white/texture: found the unknown key \"texture\", expected one of "
+            "absorption, albedo, albedo_texture, alpha_cutoff, alpha_mode, clearcoat, "
+            "clearcoat_normal_texture, clearcoat_roughness, clearcoat_roughness_texture, "
+            "clearcoat_texture, emission, emission_texture, emits_both_sides, ior, metallic, "
+            "metallic_roughness_texture, normal_scale, normal_texture, opacity, priority, "
+            "roughness, specular, specular_color, specular_color_texture, specular_texture, "
+            "thin_walled, transmission, transmission_texture, unlit"},
+        BadScene{"RoughnessAboveOne", R"({"materials": {"white": {"roughness": 1.5}}})",
+            "/materials/white/roughness: found 1.5, expected a number from 0 to 1"},
+        BadScene{"IorBelowVacuum", R"({"materials": {"white": {"ior": 0.9}}})",
+            "/materials/white/ior: found 0.9, expected an index of refraction from 1 to 100"},
+        BadScene{"UnknownAlphaMode", R"({"materials": {"white": {"alpha_mode": "MASK"}}})",
+            "/materials/white/alpha_mode: found \"MASK\", expected opaque, mask or blend; without "
+            "it blend if opacity is given, else opaque"},
+        BadScene{"MissingPicture",
+            R"({"materials": {"white": {"albedo_texture": {"file": "none.png"}}}})",
+            "/materials/white/albedo_texture/file: found \"none.png\", and no such file, expected "
+            "a PNG or JPEG picture"},
+        BadScene{"UnknownWrap",
+            R"({"materials": {"white": {"albedo_texture": {"file": "a.png", "wrap": "tile"}}}})",
+            "/materials/white/albedo_texture/wrap: found \"tile\", expected repeat, mirror or "
+            "clamp, or two of them for u and v"}),
     [](const auto& row) { return row.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(Camera, BadSceneTest,
@@ -113,7 +136,9 @@ INSTANTIATE_TEST_SUITE_P(Camera, BadSceneTest,
             "degrees"},
         BadScene{"NoPosition", R"({"camera": {"position": null}})",
             "/camera: found no key \"position\", expected a camera: an object with position, "
-            "target, up, vertical_fov_degrees"},
+            "target, up, vertical_fov_degrees, lens_radius, focus_distance"},
+        BadScene{"LensNegative", R"({"camera": {"lens_radius": -1}})",
+            "/camera/lens_radius: found -1, expected a number from 0 to 1e11"},
         BadScene{"KeyframesTurnBack",
             R"({"camera_paths": {"walk": [{"frame": 0}, {"frame": 5}, {"frame": 5}]}})",
             "/camera_paths/walk/2/frame: found frame 5, expected more than the keyframe before, "
@@ -125,6 +150,82 @@ INSTANTIATE_TEST_SUITE_P(Camera, BadSceneTest,
         BadScene{"EmptyPath", R"({"camera_paths": {"walk": []}})",
             "/camera_paths/walk: found an empty array, expected an array of at least one "
             "keyframe"}),
+    [](const auto& row) { return row.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(Surroundings, BadSceneTest,
+    testing::Values(
+        BadScene{"BackgroundAndEnvironment",
+            R"({"background": [1, 1, 1], "environment": {"file": "sky.hdr"}})",
+            "/background: found a background beside an environment, expected one of the two"},
+        BadScene{"MissingEnvironment", R"({"environment": {"file": "sky.hdr"}})",
+            "/environment/file: found \"sky.hdr\", and no such file, expected a .hdr or .exr "
+            "picture"},
+        BadScene{"FogOfMinusOne", R"({"fog": {"absorption": [-1, 0, 0]}})",
+            "/fog/absorption: found [-1,0,0], expected three numbers [r, g, b] from 0 to 1e18, per "
+            "unit of length"},
+        BadScene{"OnlyForward", R"({"fog": {"g": 1}})",
+            "/fog/g: found 1, expected a mean cosine from -0.999 to 0.999"},
+        BadScene{"LightOfNoKind", R"({"lights": {"sun": {"intensity": [1, 1, 1]}}})",
+            "/lights/sun: found an object, expected a light: an object with intensity and exactly "
+            "one of point, spot, directional"},
+        BadScene{"LightWithoutIntensity",
+            R"({"lights": {"sun": {"directional": {"direction": [0, -1, 0]}}}})",
+            "/lights/sun: found no key \"intensity\", expected a light: an object with intensity "
+            "and exactly one of point, spot, directional"},
+        BadScene{"LightOfNoDirection",
+            R"({"lights": {"sun": {"intensity": [1, 1, 1], "directional": {"direction": [0, 0, 0]}}}})",
+            "/lights/sun/directional/direction: found [0,0,0], expected a direction: not all three "
+            "0"},
+        BadScene{"ConesInsideOut", R"({"lights": {"spot": {"intensity": [1, 1, 1], "spot":
+                {"position": [0, 1, 0], "direction": [0, -1, 0], "inner_cone_degrees": 50}}}})",
+            "/lights/spot/spot: found an inner cone of 50.0 degrees in an outer one of 45.0, "
+            "expected inner_cone_degrees less than outer_cone_degrees"}),
+    [](const auto& row) { return row.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(Timeline, BadSceneTest,
+    testing::Values(
+        BadScene{"NoTime", R"({"timeline": [{"object": "ball", "move": [1, 0, 0]}]})",
+            "/timeline/0: found no key \"at\", expected an event: an object with at, one of "
+            "object, light, material, background, one of move, rotate_degrees, on, intensity, and "
+            "optionally over"},
+        BadScene{"TwoChanges",
+            R"({"timeline": [{"at": 0, "object": "ball", "move": [1, 0, 0], "on": true}]})",
+            "/timeline/0: found an object, expected an event: an object with at, one of object, "
+            "light, material, background, one of move, rotate_degrees, on, intensity, and "
+            "optionally over"},
+        BadScene{"UnknownObject",
+            R"({"timeline": [{"at": 0, "object": "bull", "move": [1, 0, 0]}]})",
+            "/timeline/0/object: found the unknown object \"bull\", expected one of ball"},
+        BadScene{"UnknownLight", R"({"timeline": [{"at": 0, "light": "sun", "on": false}]})",
+            "/timeline/0/light: found the unknown light \"sun\", expected one of /lights, which "
+            "has none"},
+        BadScene{"UnknownMovedLight",
+            R"({"timeline": [{"at": 0, "light": "sun", "move": [0, 1, 0]}]})",
+            "/timeline/0/light: found the unknown light \"sun\", expected one of /lights, which "
+            "has none"},
+        BadScene{"UnknownMaterial", R"({"timeline": [{"at": 0, "material": "lamp", "on": false}]})",
+            "/timeline/0/material: found the unknown material \"lamp\", expected one of white"},
+        BadScene{"DimmedObject", R"({"timeline": [{"at": 0, "object": "ball", "intensity": 2}]})",
+            "/timeline/0: found an object that is switched or dimmed, expected move or "
+            "rotate_degrees; its light is its material's"},
+        BadScene{"MovingSky", R"({"timeline": [{"at": 0, "background": true, "move": [0, 1, 0]}]})",
+            "/timeline/0: found a background that moves, expected on or intensity"},
+        BadScene{"TwoMovesAtOnce",
+            R"({"timeline": [{"at": 3, "object": "ball", "move": [1, 0, 0]},
+                             {"at": 1, "over": 2.5, "object": "ball", "move": [1, 0, 0]}]})",
+            "/timeline/0/at: found 3 s, expected a time after /timeline/1, which changes the same "
+            "until 3.5 s"},
+        BadScene{"MovesBeyondTheWorld",
+            R"({"timeline": [{"at": 0, "object": "ball", "move": [9e10, 0, 0]},
+                             {"at": 1, "object": "ball", "move": [9e10, 0, 0]}]})",
+            "/timeline/1/move: found a move beyond 1e11, expected coordinates of at most 1e11 in "
+            "magnitude"},
+        BadScene{"AmbiguousObject", R"({
+            "objects": [{"name": "a", "material": "white", "sphere": {"center": [0, 0, 0], "radius": 1}},
+                        {"name": "a", "material": "white", "sphere": {"center": [3, 0, 0], "radius": 1}}],
+            "timeline": [{"at": 0, "object": "a", "move": [1, 0, 0]}]})",
+            "/objects/1: found a second object called \"a\", expected one of that name, because "
+            "/timeline moves it"}),
     [](const auto& row) { return row.param.name; });
 
 struct BadObject {
@@ -147,8 +248,8 @@ TEST_P(BadObjectTest, SaysWhereAndWhy)
 }
 
 const std::string kOneShape =
-    ": found an object, expected an object with exactly one of sphere, quad, box, mesh, and the "
-    "name of its material (a mesh file may bring its own)";
+    ": found an object, expected an object with exactly one of sphere, disk, quad, box, mesh, and "
+    "the name of its material (a mesh file may bring its own)";
 const std::string kOneBox =
     "/box: found an object, expected a box: an object with either center and size (and "
     "rotation_degrees) or lower and upper";
@@ -174,6 +275,9 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BadObjectTest,
             R"("quad": {"corner": [0,0,0], "edge_u": [1,1,0], "edge_v": [2,2,0]})",
             "/quad: found a quad of no area: edge_u [1,1,0], edge_v [2,2,0], expected edges that "
             "are not 0 and not parallel"},
+        BadObject{"DiskWithoutNormal",
+            R"("disk": {"center": [0,0,0], "normal": [0,0,0], "radius": 1})",
+            "/disk/normal: found [0,0,0], expected a direction: not all three 0"},
         BadObject{"QuadOfNoEdge",
             R"("quad": {"corner": [0,0,0], "edge_u": [0,0,0], "edge_v": [2,2,0]})",
             "/quad: found a quad of no area: edge_u [0,0,0], edge_v [2,2,0], expected edges that "
@@ -209,6 +313,15 @@ INSTANTIATE_TEST_SUITE_P(Meshes, BadObjectTest,
         BadObject{"TooFewNormals",
             R"("mesh": {"positions": [[0,0,0],[1,0,0],[0,1,0]], "normals": [[0,0,1]], "triangles": [[0,1,2]]})",
             "/mesh/normals: found 1 normals, expected 3, one a position"},
+        BadObject{"TooManyUvs",
+            R"("mesh": {"positions": [[0,0,0],[1,0,0],[0,1,0]], "uvs": [[0,0],[1,0],[0,1],[1,1]], "triangles": [[0,1,2]]})",
+            "/mesh/uvs: found 4 uvs, expected 3, one a position"},
+        BadObject{"UnknownSharedMesh", R"("mesh": {"instance_of": "knot"})",
+            "/mesh/instance_of: found the unknown mesh \"knot\", expected one of /meshes, which "
+            "has none"},
+        BadObject{"MaterialsOfAShape",
+            R"("materials": {"a": "white"}, "sphere": {"center": [0,0,0], "radius": 1})",
+            "/materials: found materials for a shape that has one, expected a mesh of a file"},
         BadObject{"MissingFile", R"("mesh": {"file": "nowhere.glb"})",
             "/mesh/file: found \"nowhere.glb\", and no such file, expected a .gltf or .glb file"},
         BadObject{"WrongFile", R"("mesh": {"file": "picture.png"})",

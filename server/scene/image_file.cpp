@@ -1,0 +1,179 @@
+// Decoding, with limits checked before anything is allocated.
+#include "server/scene/image_file.h"
+
+#include "server/scene/json_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <stb/stb_image.h>
+#include <tinyexr.h>
+
+namespace farlight {
+
+namespace {
+
+/// As in a scene file: the square is still a finite float.
+constexpr float kLargestRadiance = 1e18F;
+
+constexpr std::array<unsigned char, 4> kExrMagic{0x76, 0x2f, 0x31, 0x01};
+
+struct Size {
+    int width = 0;
+    int height = 0;
+};
+
+/// Both ends included; clamped, for a broken file may say anything.
+int extent(int first, int last)
+{
+    const auto size = std::int64_t{last} - first + 1;
+    return static_cast<int>(std::clamp<std::int64_t>(size, 0, std::numeric_limits<int>::max()));
+}
+
+/// Bytes of a picture, or of a whole file of pictures.
+struct Encoded {
+    const unsigned char* bytes;
+    int length;
+};
+
+Encoded encoded(std::span<const unsigned char> bytes, const ScenePlace& place)
+{
+    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        refuse(place, std::to_string(bytes.size()) + " bytes", "a picture of less than 2 GiB");
+    return {bytes.data(), static_cast<int>(bytes.size())};
+}
+
+void check_size(const Size& size, const ScenePlace& place)
+{
+    if (size.width < 1 || size.height < 1 || size.width > kLargestImageSide
+        || size.height > kLargestImageSide)
+        refuse(place,
+            "a picture of " + std::to_string(size.width) + " x " + std::to_string(size.height),
+            "at least 1 and at most " + std::to_string(kLargestImageSide) + " texels a side");
+}
+
+Size stb_size(const Encoded& picture, const ScenePlace& place, const char* expected)
+{
+    Size size;
+    int channels = 0;
+    if (stbi_info_from_memory(picture.bytes, picture.length, &size.width, &size.height, &channels)
+        == 0)
+        refuse(place, std::string("no picture: ") + stbi_failure_reason(), expected);
+    check_size(size, place);
+    return size;
+}
+
+/// r, g, b of texels that lie `stride` floats apart.
+EnvironmentFile repaired(const float* texels, int stride, const Size& size)
+{
+    EnvironmentFile file;
+    file.map.width = static_cast<std::uint32_t>(size.width);
+    file.map.height = static_cast<std::uint32_t>(size.height);
+    file.map.texels.resize(std::size_t{file.map.width} * file.map.height);
+    for (std::size_t i = 0; i < file.map.texels.size(); ++i) {
+        bool repaired = false;
+        for (int channel = 0; channel < 3; ++channel) {
+            const float found =
+                texels[i * static_cast<std::size_t>(stride) + static_cast<std::size_t>(channel)];
+            const bool usable = found >= 0 && found <= kLargestRadiance;  // false for NaN
+            const bool bright = std::isfinite(found) && found > kLargestRadiance;
+            file.map.texels[i][channel] = usable ? found : bright ? kLargestRadiance : 0;
+            repaired = repaired || !usable;
+        }
+        file.repaired_texels += repaired ? 1 : 0;
+    }
+    return file;
+}
+
+EnvironmentFile read_hdr(const Encoded& picture, const ScenePlace& place)
+{
+    Size size = stb_size(picture, place, "a Radiance HDR picture");
+    int channels = 0;
+    const std::unique_ptr<float, void (*)(void*)> texels(
+        stbi_loadf_from_memory(
+            picture.bytes, picture.length, &size.width, &size.height, &channels, 3),
+        stbi_image_free);
+    if (!texels)
+        refuse(place, std::string("a broken picture: ") + stbi_failure_reason(),
+            "a Radiance HDR picture");
+    return repaired(texels.get(), 3, size);
+}
+
+EnvironmentFile read_exr(const Encoded& picture, const ScenePlace& place)
+{
+    const auto length = static_cast<std::size_t>(picture.length);
+    EXRVersion version;
+    EXRHeader header;
+    InitEXRHeader(&header);
+    const char* error = nullptr;
+    const auto check = [&](int result) {
+        if (result == TINYEXR_SUCCESS)
+            return;
+        const std::string reason = error != nullptr ? error : "unknown reason";
+        FreeEXRErrorMessage(error);
+        refuse(place, "a broken picture: " + reason, "an OpenEXR picture with channels R, G, B");
+    };
+    check(ParseEXRVersionFromMemory(&version, picture.bytes, length));
+    check(ParseEXRHeaderFromMemory(&header, &version, picture.bytes, length, &error));
+    Size size{extent(header.data_window.min_x, header.data_window.max_x),
+        extent(header.data_window.min_y, header.data_window.max_y)};
+    FreeEXRHeader(&header);
+    check_size(size, place);
+    float* texels = nullptr;
+    check(LoadEXRFromMemory(&texels, &size.width, &size.height, picture.bytes, length, &error));
+    const std::unique_ptr<float, void (*)(void*)> owned(texels, std::free);
+    return repaired(texels, 4, size);
+}
+
+std::span<const unsigned char> bytes_of(const std::string& text)
+{
+    return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
+}
+
+}  // namespace
+
+Image8 decode_image(std::span<const unsigned char> bytes, const ScenePlace& place)
+{
+    constexpr const char* kExpected = "a PNG or JPEG picture";
+    const Encoded picture = encoded(bytes, place);
+    Size size = stb_size(picture, place, kExpected);
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, void (*)(void*)> texels(
+        stbi_load_from_memory(
+            picture.bytes, picture.length, &size.width, &size.height, &channels, 4),
+        stbi_image_free);
+    if (!texels)
+        refuse(place, std::string("a broken picture: ") + stbi_failure_reason(), kExpected);
+    Image8 image;
+    image.width = static_cast<std::uint32_t>(size.width);
+    image.height = static_cast<std::uint32_t>(size.height);
+    image.texels.resize(std::size_t{image.width} * image.height);
+    std::memcpy(image.texels.data(), texels.get(), image.texels.size() * sizeof(glm::u8vec4));
+    return image;
+}
+
+Image8 read_image(const std::filesystem::path& file)
+{
+    Image8 image = decode_image(bytes_of(read_file(file, "a picture")), {file.string(), {}});
+    image.name = file.filename().string();
+    return image;
+}
+
+EnvironmentFile read_environment_map(const std::filesystem::path& file)
+{
+    const std::string text = read_file(file, "a picture");
+    const ScenePlace place{file.string(), {}};
+    const Encoded picture = encoded(bytes_of(text), place);
+    const bool exr = text.size() >= kExrMagic.size()
+        && std::memcmp(text.data(), kExrMagic.data(), kExrMagic.size()) == 0;
+    if (!exr && stbi_is_hdr_from_memory(picture.bytes, picture.length) == 0)
+        refuse(place, "neither of the two", "a Radiance HDR (.hdr) or OpenEXR (.exr) picture");
+    EnvironmentFile environment = exr ? read_exr(picture, place) : read_hdr(picture, place);
+    environment.map.file = file.string();
+    return environment;
+}
+
+}  // namespace farlight
