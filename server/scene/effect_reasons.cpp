@@ -1,6 +1,8 @@
 // Reasons, from what shapes are made of down to the camera. Each finds the first thing of its kind.
 #include "server/scene/effect_reasons.h"
 
+#include "server/scene/textures.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -111,16 +113,6 @@ bool is_deformed(const Scene& scene, std::size_t object)
             });
 }
 
-/// All of a material's textures.
-template <typename Visit> void each_texture(const Material& m, const Visit& visit)
-{
-    for (const Texture* texture :
-        {&m.albedo_texture, &m.emission_texture, &m.metallic_roughness_texture, &m.normal_texture,
-            &m.specular_texture, &m.specular_color_texture, &m.transmission_texture,
-            &m.clearcoat_texture, &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture})
-        visit(*texture);
-}
-
 bool reflects(const Material& m)
 {
     return !m.unlit && (m.metallic > 0 || m.specular > 0 || m.transmission > 0);
@@ -201,8 +193,8 @@ Reason lights(const Scene& scene, const SceneContent& content)
 Reason polygon_lights(const Scene& scene, const SceneContent& content)
 {
     return counted(
-        scene, content, content.polygon_lights, "emissive polygons", [&](const Object& object) {
-            return !is_sphere(object) && !is_disk(object) && emits(scene, object);
+        scene, content, content.polygon_lights, "emissive quads", [&](const Object& object) {
+            return std::holds_alternative<Quad>(object.shape) && emits(scene, object);
         });
 }
 
@@ -266,7 +258,7 @@ Reason textures(const Scene& scene, const SceneContent& content)
 {
     const Texture* first = nullptr;
     Reason reason = by_material(scene, content, "", [&](const Material& material) {
-        each_texture(material, [&](const Texture& texture) {
+        each_texture(material, [&](const Texture& texture, TexelSpace /*space*/) {
             if (first == nullptr && texture.used())
                 first = &texture;
         });
@@ -281,7 +273,7 @@ Reason second_uvs(const Scene& scene, const SceneContent& content)
 {
     return by_material(scene, content, "texture of uv set 1", [](const Material& material) {
         bool second = false;
-        each_texture(material, [&](const Texture& texture) {
+        each_texture(material, [&](const Texture& texture, TexelSpace /*space*/) {
             second = second || (texture.used() && texture.uv_set == 1);
         });
         return second;

@@ -32,7 +32,7 @@ private:
     void add(const Disk& disk)
     {
         flat_.disks.push_back({glm::vec3(disk.center), static_cast<float>(disk.radius),
-            glm::vec3(glm::normalize(disk.normal)), object_});
+            glm::vec3(glm::normalize(disk.normal)), object_, add_light(light_of(disk))});
     }
 
     void add(const Quad& quad)
@@ -62,7 +62,10 @@ private:
             if (!is_usable(triangle))
                 continue;
             const auto& [a, b, c] = triangle.vertices;
-            triangle.light = add_light(light_of_triangle(a, b - a, c - a));
+            Light light = light_of_triangle(a, b - a, c - a);
+            light.face = face;
+            light.mirrored = mirrored;
+            triangle.light = add_light(light);
             flat_.triangles.push_back(triangle);
         }
     }
@@ -81,13 +84,10 @@ private:
     /// Index + 1 of the light, or 0 when this emits nothing worth choosing.
     std::uint32_t add_light(Light light)
     {
-        light.material = scene_.objects[object_].material;
-        const Material& material = scene_.materials[light.material];
-        light.radiance = material.emission;
-        light.emits_both_sides = material.emits_both_sides;
-        light.power = light_power(light, material);
-        if (!(light.power > 0))
+        const Object& object = scene_.objects[object_];
+        if (!is_sampled(scene_, object) || !(light.area > 0))
             return 0;
+        light.object = object_;
         flat_.lights.push_back(light);
         return static_cast<std::uint32_t>(flat_.lights.size());
     }

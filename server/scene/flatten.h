@@ -30,13 +30,14 @@ struct FlatDisk {
     float radius;
     glm::vec3 normal;
     std::uint32_t object;
+    std::uint32_t light = 0;
 };
 
 struct FlatScene {
     std::vector<FlatTriangle> triangles;
     std::vector<FlatSphere> spheres;
     std::vector<FlatDisk> disks;
-    std::vector<Light> lights;  ///< Without their table.
+    std::vector<Light> lights;  ///< Their shapes.
     std::size_t dropped_triangles = 0;  ///< Zero area or not finite once in world space.
 };
 

@@ -3,22 +3,30 @@
 
 #include "server/gl/gl_error.h"
 
+#include <algorithm>
+
 namespace farlight {
 
 GpuScene::GpuScene(const Scene& scene)
 {
-    const PackedScene packed = pack_scene(scene);
+    const PackedScene packed = pack_scene(scene, device_texture_limits());
     effects_ = packed.effects;
     triangle_count_ = packed.content.triangles;
-    light_count_ = packed.light_count();
+    light_count_ = packed.lights->count();
     dropped_triangles_ = packed.dropped_triangles;
     for (const std::string_view macro : mask_of(effects_).macros())
         defines_.emplace_back(macro, "1");
     defines_.emplace_back("BVH_STACK_SIZE", std::to_string(packed.stack_depth + 1));
-    defines_.emplace_back("LIGHT_COUNT", std::to_string(packed.light_count()) + "u");
+    defines_.emplace_back("LIGHT_COUNT", std::to_string(packed.lights->count()) + "u");
+    defines_.emplace_back("TEXTURE_ARRAY_COUNT",
+        std::to_string(std::max<std::size_t>(packed.textures.arrays().size(), 1)));
     buffers_.emplace_back("nothing", std::span<const std::byte>());
     for (const auto& [name, texels] : packed.tables())
         upload(name, *texels);
+    images_ = std::make_unique<TextureArrays>(packed.textures);
+    textures_.insert(images_->textures().begin(), images_->textures().end());
+    for (const TextureArrays::Array& array : images_->arrays())
+        allocations_.push_back({array.name, array.bytes});
 }
 
 void GpuScene::upload(const char* name, const Texels& texels)

@@ -4,8 +4,10 @@
 #include "server/gl/buffer.h"
 #include "server/gl/shader_source.h"
 #include "server/scene/packed_scene.h"
+#include "server/scene/texture_arrays.h"
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,7 @@ private:
     void upload(const char* name, const Texels& texels);
 
     std::vector<Buffer> buffers_;
+    std::unique_ptr<TextureArrays> images_;
     std::vector<Allocation> allocations_;
     std::map<std::string, GLuint, std::less<>> textures_;
     Defines defines_;

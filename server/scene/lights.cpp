@@ -1,18 +1,30 @@
-// Power and the alias table, in double precision.
+// Shapes as lights, and their power, in double precision.
 #include "server/scene/lights.h"
 
 #include "shaders/shared/scene_layout.h"
 
-#include <cassert>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace farlight {
+
+using std::numbers::pi;
 
 Light light_of(const Sphere& sphere)
 {
     Light light{.kind = LIGHT_SPHERE, .p0 = glm::vec3(sphere.center)};
     light.edge_u.x = static_cast<float>(sphere.radius);
-    light.area = static_cast<float>(4 * std::numbers::pi * sphere.radius * sphere.radius);
+    light.area = static_cast<float>(4 * pi * sphere.radius * sphere.radius);
+    return light;
+}
+
+Light light_of(const Disk& disk)
+{
+    Light light{.kind = LIGHT_DISK, .p0 = glm::vec3(disk.center)};
+    light.edge_u.x = static_cast<float>(disk.radius);
+    light.edge_v = glm::vec3(glm::normalize(disk.normal));
+    light.area = static_cast<float>(pi * disk.radius * disk.radius);
     return light;
 }
 
@@ -31,63 +43,55 @@ Light light_of_triangle(const glm::vec3& p0, const glm::vec3& edge_u, const glm:
     return light;
 }
 
+Light light_of(const PunctualLight& punctual, const glm::dmat4& world_from_node)
+{
+    static constexpr std::uint32_t kKinds[] = {LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL};
+    Light light{.kind = kKinds[static_cast<std::size_t>(punctual.kind)]};
+    light.p0 = glm::vec3(world_from_node * glm::dvec4(punctual.position, 1));
+    light.edge_v = glm::vec3(glm::normalize(glm::dmat3(world_from_node) * punctual.direction));
+    light.radiance = punctual.intensity;
+    if (punctual.kind == PunctualLight::Kind::kSpot) {
+        const double inner = std::cos(punctual.inner_cone);
+        const double outer = std::cos(punctual.outer_cone);
+        light.edge_u.x = static_cast<float>(1 / (inner - outer));
+        light.edge_u.y = static_cast<float>(-outer / (inner - outer));
+    }
+    return light;
+}
+
 double luminance(const glm::dvec3& rgb)
 {
     return 0.2126 * rgb.x + 0.7152 * rgb.y + 0.0722 * rgb.z;
 }
 
-double light_power(const Light& light, const Material& material)
+double light_power(const Light& light, double scene_radius)
 {
-    const double sides = material.emits_both_sides ? 2 : 1;
-    return std::numbers::pi * luminance(material.emission) * light.area * sides;
+    switch (light.kind) {
+    case LIGHT_POINT: return 4 * pi * light.mean_luminance;
+    case LIGHT_SPOT: {
+        // The falloff ((c - outer) / (inner - outer))^2, integrated over the cosine c.
+        const double width = 1 / static_cast<double>(light.edge_u.x);
+        const double inner = width * (1 - static_cast<double>(light.edge_u.y));
+        return 2 * pi * (width / 3 + std::max(1 - inner, 0.0)) * light.mean_luminance;
+    }
+    case LIGHT_DIRECTIONAL:
+    case LIGHT_ENVIRONMENT: return pi * scene_radius * scene_radius * light.mean_luminance;
+    default: return pi * light.mean_luminance * light.area * (light.emits_both_sides ? 2 : 1);
+    }
 }
 
-void fill_alias_table(std::span<Light> lights)
+bool is_sampled(const Scene& scene, const Object& object)
 {
-    double total = 0;
-    for (const Light& light : lights)
-        total += light.power;
-
-    std::vector<double> scaled(lights.size());
-    std::vector<std::uint32_t> small;
-    std::vector<std::uint32_t> large;
-    for (std::uint32_t i = 0; i < lights.size(); ++i) {
-        assert(lights[i].power > 0);
-        lights[i].pmf = static_cast<float>(lights[i].power / total);
-        scaled[i] = lights[i].power / total * static_cast<double>(lights.size());
-        (scaled[i] < 1 ? small : large).push_back(i);
-    }
-    while (!small.empty() && !large.empty()) {
-        const std::uint32_t s = small.back();
-        const std::uint32_t l = large.back();
-        small.pop_back();
-        lights[s].alias_threshold = static_cast<float>(scaled[s]);
-        lights[s].alias = l;
-        scaled[l] -= 1 - scaled[s];
-        if (scaled[l] < 1) {
-            large.pop_back();
-            small.push_back(l);
-        }
-    }
-    for (const auto& rest : {small, large})
-        for (const std::uint32_t i : rest) {
-            lights[i].alias_threshold = 1;
-            lights[i].alias = i;
-        }
-}
-
-Texels pack_lights(std::span<const Light> lights)
-{
-    Texels texels;
-    for (const Light& light : lights) {
-        texels.emplace_back(light.kind | (light.emits_both_sides ? LIGHT_EMITS_BOTH_SIDES : 0), 0,
-            bits(light.pmf), bits(light.area));
-        texels.push_back(texel(light.p0, bits(light.alias_threshold)));
-        texels.push_back(texel(light.edge_u, light.alias));
-        texels.push_back(texel(light.edge_v, 0));
-        texels.push_back(texel(light.radiance, 0));
-    }
-    return texels;
+    const Material& material = scene.materials[object.material];
+    if (!(luminance(material.emission) > 0))
+        return false;
+    const bool holes = material.alpha_mode != AlphaMode::kOpaque;
+    const bool textured =
+        material.emission_texture.used() || (holes && material.albedo_texture.used());
+    if (std::holds_alternative<Sphere>(object.shape))
+        return !textured;
+    const auto* instance = std::get_if<MeshInstance>(&object.shape);
+    return instance == nullptr || !holes || scene.meshes[instance->mesh].colors.empty();
 }
 
 }  // namespace farlight

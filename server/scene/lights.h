@@ -1,51 +1,48 @@
-// Area lights: what emits, how strongly, and a table to pick one with probability proportional to
-// its power.
+// Lights as the GPU samples them: what emits, where, how strongly.
 #pragma once
 
 #include "server/scene/scene.h"
-#include "server/scene/texels.h"
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace farlight {
 
-/// One emitter in world space. Sphere: p0 is the center, edge_u.x the radius.
+/// One emitter in world space. What p0 and the edges mean follows from the kind
+/// (shaders/shared/scene_layout.h).
 struct Light {
-    std::uint32_t kind = 0;  ///< LIGHT_* of shaders/shared/scene_layout.h.
-    std::uint32_t material = 0;
+    std::uint32_t kind = 0;  ///< LIGHT_*.
+    std::uint32_t object = kNone;  ///< That emits; none for punctual lights and the environment.
+    std::uint32_t face = 0;  ///< Of the object's mesh; 0 for other shapes.
+    bool mirrored = false;  ///< The object's transform turns the face's winding round.
     glm::vec3 p0{0};
     glm::vec3 edge_u{0};
     glm::vec3 edge_v{0};
     float area = 0;  ///< [m^2], one side.
-    glm::vec3 radiance{0};
     bool emits_both_sides = false;
-    double power =
-        0;  ///< Luminance of the emitted flux [W]: pi * Le * area, twice that if both sides emit.
-    float pmf = 0;  ///< Probability that the alias table picks this light; sums to 1.
-    float alias_threshold =
-        1;  ///< Keep this light if the second random number is below, else take `alias`.
-    std::uint32_t alias = 0;
+    glm::vec3 radiance{0};  ///< Before textures. Point, spot: intensity; directional: irradiance.
+    double mean_luminance = 0;  ///< Of the radiance, over the area and after textures.
+    double power = 0;  ///< Luminance of the flux into the scene [W].
+    float pmf = 0;  ///< Probability of being chosen, the same everywhere.
 };
 
 /// Shapes as lights, without material and power.
 Light light_of(const Sphere& sphere);
+Light light_of(const Disk& disk);
 Light light_of_quad(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v);
 Light light_of_triangle(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v);
+/// With its intensity; `world_from_node` where it hangs on a node, else the identity.
+Light light_of(const PunctualLight& light, const glm::dmat4& world_from_node);
 
 /// Luminance of linear Rec. 709 RGB.
 double luminance(const glm::dvec3& rgb);
 
-/// Luminance of the flux the light emits [W]; 0 for what has no area or emits nothing, which must
-/// not become a light.
-double light_power(const Light& light, const Material& material);
+/// Luminance of the flux that leaves the light [W], from radiance and area; of a directional light
+/// and the environment: that reaches a scene of radius `scene_radius`.
+double light_power(const Light& light, double scene_radius);
 
-/// Vose's alias method over `power`, in double precision. Every light must have power > 0.
-/// Source: Vose 1991, "A linear algorithm for generating random numbers with a given distribution".
-void fill_alias_table(std::span<Light> lights);
-
-/// LIGHT_TEXELS a light (shaders/shared/scene_layout.h).
-Texels pack_lights(std::span<const Light> lights);
+/// Whether an object may be sampled as a light: it emits, and its radiance at a sampled point can
+/// be told. It cannot where textures lie on a sphere, or where vertex colours decide what is there;
+/// such emitters are met by following the BSDF alone.
+bool is_sampled(const Scene& scene, const Object& object);
 
 }  // namespace farlight

@@ -174,7 +174,7 @@ void pack_disk(PackedGeometry& packed, const Scene& scene, const FlatDisk& disk)
 {
     packed.disks.push_back(texel(disk.center, bits(disk.radius)));
     packed.disks.push_back(texel(disk.normal, 0));
-    packed.disks.emplace_back(disk.object, scene.objects[disk.object].material, 0, 0);
+    packed.disks.emplace_back(disk.object, scene.objects[disk.object].material, disk.light, 0);
 }
 
 }  // namespace

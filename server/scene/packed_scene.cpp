@@ -3,7 +3,6 @@
 
 #include "server/scene/bvh.h"
 #include "server/scene/materials.h"
-#include "shaders/shared/scene_layout.h"
 
 #include <cmath>
 #include <limits>
@@ -74,8 +73,6 @@ SceneContent content_of(const Scene& scene, const FlatScene& flat)
         if (instance != nullptr && !scene.meshes[instance->mesh].normals.empty())
             ++content.smooth_triangles;
     }
-    for (const Light& light : flat.lights)
-        (light.kind == LIGHT_SPHERE ? content.sphere_lights : content.polygon_lights) += 1;
     return content;
 }
 
@@ -92,20 +89,25 @@ WantedAttributes attributes_for(EffectMask effects)
 
 }  // namespace
 
-PackedScene pack_scene(const Scene& scene)
+PackedScene pack_scene(const Scene& scene, const TextureLimits& limits)
 {
     FlatScene flat = flatten(scene);
     Bvh bvh = tree_over(flat);
-    PackedScene packed;
+    PackedScene packed{.textures = TextureLayout(scene.images)};
+    for (const Material& material : scene.materials)
+        each_texture(material, [&](const Texture& texture, TexelSpace space) {
+            packed.textures.need(texture, space);
+        });
+    packed.textures.lay_out(limits);
+    packed.lights.emplace(scene, packed.textures, std::move(flat.lights));
     packed.content = content_of(scene, flat);
+    packed.lights->count_kinds(packed.content);
     packed.effects = active_effects(scene, packed.content);
     packed.bvh_nodes = std::move(bvh.nodes);
     packed.stack_depth = bvh.stack_depth;
     packed.geometry =
         pack_geometry(scene, flat, bvh.order, attributes_for(mask_of(packed.effects)));
     packed.materials = pack_materials(scene.materials);
-    fill_alias_table(flat.lights);
-    packed.lights = pack_lights(flat.lights);
     packed.dropped_triangles = flat.dropped_triangles;
     return packed;
 }
@@ -115,7 +117,8 @@ std::vector<std::pair<const char*, const Texels*>> PackedScene::tables() const
     return {{"bvh_nodes", &bvh_nodes}, {"triangles", &geometry.triangles},
         {"spheres", &geometry.spheres}, {"disks", &geometry.disks}, {"normals", &geometry.normals},
         {"uvs", &geometry.uvs[0]}, {"uvs1", &geometry.uvs[1]}, {"tangents", &geometry.tangents},
-        {"colors", &geometry.colors}, {"materials", &materials}, {"lights", &lights}};
+        {"colors", &geometry.colors}, {"materials", &materials}, {"lights", &lights->lights()},
+        {"light_textures", &lights->textures()}, {"environment", &lights->environment()}};
 }
 
 }  // namespace farlight

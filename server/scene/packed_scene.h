@@ -2,8 +2,11 @@
 #pragma once
 
 #include "server/scene/effects.h"
+#include "server/scene/light_table.h"
 #include "server/scene/pack_geometry.h"
+#include "server/scene/textures.h"
 
+#include <optional>
 #include <utility>
 
 namespace farlight {
@@ -12,18 +15,19 @@ struct PackedScene {
     Texels bvh_nodes;
     PackedGeometry geometry;
     Texels materials;
-    Texels lights;
+    std::optional<LightTable> lights;  ///< Never absent once packed.
+    TextureLayout textures;
     SceneContent content;
     std::vector<ActiveEffect> effects;
     std::size_t dropped_triangles = 0;  ///< Zero area or not finite once in world space.
     int stack_depth = 0;
 
-    std::size_t light_count() const { return content.polygon_lights + content.sphere_lights; }
     /// Every table by the name shaders use; empty where the scene has nothing for it.
     std::vector<std::pair<const char*, const Texels*>> tables() const;
 };
 
-/// Flattens objects, builds the tree and the light table. Needs no GL.
-PackedScene pack_scene(const Scene& scene);
+/// Flattens objects, builds the tree and the light table, lays out textures. Needs no GL. The scene
+/// must outlive the result.
+PackedScene pack_scene(const Scene& scene, const TextureLimits& limits = {});
 
 }  // namespace farlight

@@ -30,12 +30,11 @@ void fill_layer(GLuint id, GLint layer, const std::vector<Image8>& levels)
     }
 }
 
-std::string sentence(const std::string& name, const TextureArrayLayout& array)
+std::string content_of(const TextureArrayLayout& array)
 {
-    return name + ": " + std::to_string(array.images.size()) + " layers of "
-        + std::to_string(array.width) + "x" + std::to_string(array.height)
-        + (array.space == TexelSpace::kSrgb ? " sRGB" : " linear") + " texels with mip levels, "
-        + std::to_string(array.bytes()) + " bytes";
+    return std::to_string(array.images.size()) + " layers of " + std::to_string(array.width) + "x"
+        + std::to_string(array.height) + (array.space == TexelSpace::kSrgb ? " sRGB" : " linear")
+        + " texels with mip levels";
 }
 
 }  // namespace
@@ -61,15 +60,13 @@ TextureArrays::TextureArrays(const TextureLayout& layout)
         const std::string name = "texture_array_" + std::to_string(i);
         const GLuint id = storage(name, array);
         textures_[name] = id;
-        check_gl("allocating " + sentence(name, array));
+        check_gl("allocating " + name + ", " + content_of(array));
         for (std::size_t layer = 0; layer < array.images.size(); ++layer)
             fill_layer(id, static_cast<GLint>(layer),
                 used ? mip_levels(layout.images()[array.images[layer]], array.space) : black);
         check_gl("uploading " + name);
-        if (used) {
-            bytes_ += array.bytes();
-            report_.push_back(sentence(name, array));
-        }
+        if (used)
+            arrays_.push_back({name, content_of(array), array.bytes()});
     }
 }
 

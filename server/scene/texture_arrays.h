@@ -22,14 +22,17 @@ public:
 
     /// texture_array_0, texture_array_1, ...: as shaders call them.
     const std::map<std::string, GLuint, std::less<>>& textures() const { return textures_; }
-    std::size_t bytes() const { return bytes_; }
-    /// One sentence an array: what it holds and what it takes.
-    const std::vector<std::string>& report() const { return report_; }
+    struct Array {
+        std::string name;
+        std::string content;  ///< "3 layers of 8x8 sRGB texels with mip levels".
+        std::size_t bytes = 0;
+    };
+    /// Those that hold images.
+    const std::vector<Array>& arrays() const { return arrays_; }
 
 private:
     std::map<std::string, GLuint, std::less<>> textures_;
-    std::size_t bytes_ = 0;
-    std::vector<std::string> report_;
+    std::vector<Array> arrays_;
 };
 
 }  // namespace farlight

@@ -41,6 +41,18 @@ struct TextureArrayLayout {
     std::size_t bytes() const;  ///< Of all layers and levels.
 };
 
+/// Calls visit(texture, space) for every texture of a material, used or not.
+template <typename Visit> void each_texture(const Material& m, const Visit& visit)
+{
+    for (const Texture* texture :
+        {&m.albedo_texture, &m.emission_texture, &m.specular_color_texture})
+        visit(*texture, TexelSpace::kSrgb);
+    for (const Texture* texture : {&m.metallic_roughness_texture, &m.normal_texture,
+             &m.specular_texture, &m.transmission_texture, &m.clearcoat_texture,
+             &m.clearcoat_roughness_texture, &m.clearcoat_normal_texture})
+        visit(*texture, TexelSpace::kLinear);
+}
+
 using PackedTexture = std::array<glm::uvec4, TEXTURE_TEXELS>;
 
 /// Used in three steps: need() for every texture that a material looks up, lay_out(), packed() for

@@ -1,6 +1,6 @@
 // The table of lights (layout: shared/scene_layout.h) and the choice of one by power.
 #pragma once
-#include "shared/scene_layout.h"
+#include "geometry/scene.glsl"
 
 #ifdef FX_LIGHTS
 uniform usamplerBuffer lights;
@@ -22,11 +22,11 @@ struct Light {
 Light load_light(uint index)
 {
     const int at = int(index) * LIGHT_TEXELS;
-    const uvec4 a = texelFetch(lights, at);
-    const uvec4 b = texelFetch(lights, at + 1);
-    const uvec4 c = texelFetch(lights, at + 2);
-    const uvec4 d = texelFetch(lights, at + 3);
-    const uvec4 e = texelFetch(lights, at + 4);
+    const uvec4 a = fetch_attribute(lights, at);
+    const uvec4 b = fetch_attribute(lights, at + 1);
+    const uvec4 c = fetch_attribute(lights, at + 2);
+    const uvec4 d = fetch_attribute(lights, at + 3);
+    const uvec4 e = fetch_attribute(lights, at + 4);
     return Light(a.x & LIGHT_KIND_MASK, (a.x & LIGHT_EMITS_BOTH_SIDES) != 0u, a.y, uintBitsToFloat(a.z),
         uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), uintBitsToFloat(b.w), uintBitsToFloat(c.xyz), c.w,
         uintBitsToFloat(d.xyz), uintBitsToFloat(e.xyz));

@@ -14,8 +14,19 @@
 //   colors       2 a triangle (FX_VERTEX_COLORS): rgba of v0 and v1, of v2, as halfs
 //   materials    MATERIAL_TEXELS a material, each at its MATERIAL_* offset below
 //   lights       LIGHT_TEXELS a light: LIGHT_* kind and flags, place in light_textures + 1 (0: none), pmf, area;
-//                p0.xyz and alias threshold; edge_u.xyz (sphere, disk: radius) and alias index;
-//                edge_v.xyz (disk: normal); radiance.rgb
+//                p0.xyz and alias threshold; edge_u.xyz and alias index; edge_v.xyz; radiance.rgb. By kind:
+//                quad, triangle: p0, edge_u, edge_v        sphere: p0 center, edge_u.x radius
+//                disk: p0 center, edge_u.x radius, edge_v normal
+//                point, spot: p0, radiance is intensity [W/sr]; spot: edge_v the way it goes, edge_u.xy scale and
+//                offset of the cosine to it (KHR_lights_punctual)
+//                directional: edge_v the way it goes, radiance is irradiance
+//                environment: none of these; there is one at most, the last light
+//   light_textures  LIGHT_TEXTURE_TEXELS a light whose emission or opacity is textured: uv of p0, p0 + edge_u,
+//                p0 + edge_v for the emission, the same for the opacity; opacity, alpha cutoff (negative: none);
+//                texture reference of the emission; of the opacity (its A)
+//   environment  ENVIRONMENT_HEADER_TEXELS: width, height (0: no map); three rows of map_from_world. Then a texel of
+//                the map: radiance.rgb, density of sampling it given the map [1/sr]. Then the alias table over these:
+//                threshold and index of two a texel
 //
 // A texture reference is TEXTURE_TEXELS texels wherever it stands: TEXTURE_* flags with array and layer, width and
 // height in 16 bits each, offset.xy; column_u.xy, column_v.xy. All zero: no texture, which reads as white.
@@ -37,6 +48,8 @@
 #define UV_TEXELS 2
 #define COLOR_TEXELS 2
 #define LIGHT_TEXELS 5
+#define LIGHT_TEXTURE_TEXELS 8
+#define ENVIRONMENT_HEADER_TEXELS 4
 #define TEXTURE_TEXELS 2
 
 // Texels of a material.
@@ -58,6 +71,11 @@
 #define LIGHT_QUAD 0u      // parallelogram p0 + s * edge_u + t * edge_v
 #define LIGHT_TRIANGLE 1u  // p0, p0 + edge_u, p0 + edge_v
 #define LIGHT_SPHERE 2u
+#define LIGHT_DISK 3u
+#define LIGHT_POINT 4u
+#define LIGHT_SPOT 5u
+#define LIGHT_DIRECTIONAL 6u
+#define LIGHT_ENVIRONMENT 7u
 #define LIGHT_KIND_MASK 0xffu
 #define LIGHT_EMITS_BOTH_SIDES 0x100u
 

@@ -219,10 +219,10 @@ TEST_F(TextureArraysTest, BindAllArraysAndReportTheirMemory)
     layout.lay_out(device_texture_limits());
     const TextureArrays arrays(layout);
     EXPECT_EQ(arrays.textures().size(), std::size_t{TEXTURE_ARRAYS});
-    EXPECT_EQ(arrays.bytes(), 4U * (64 + 16 + 4 + 1));
-    ASSERT_EQ(arrays.report().size(), 1U);
-    EXPECT_EQ(arrays.report()[0],
-        "texture_array_0: 1 layers of 8x8 sRGB texels with mip levels, 340 bytes");
+    ASSERT_EQ(arrays.arrays().size(), 1U);
+    EXPECT_EQ(arrays.arrays()[0].name, "texture_array_0");
+    EXPECT_EQ(arrays.arrays()[0].content, "1 layers of 8x8 sRGB texels with mip levels");
+    EXPECT_EQ(arrays.arrays()[0].bytes, 4U * (64 + 16 + 4 + 1));
 }
 
 }  // namespace

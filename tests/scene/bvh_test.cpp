@@ -1,4 +1,4 @@
-// The packed tree's invariants, and the light table's exactness. No device needed.
+// The packed tree's invariants. No device needed.
 #include "server/scene/bvh.h"
 #include "server/scene/packed_scene.h"
 #include "shaders/shared/scene_layout.h"
@@ -146,40 +146,6 @@ TEST(BvhTest, NonFiniteBoundsAreRefusedByName)
     } catch (const std::invalid_argument& error) {
         EXPECT_NE(std::string(error.what()).find("primitive 3"), std::string::npos) << error.what();
     }
-}
-
-TEST(LightsTest, AliasTableHasExactlyTheStatedProbabilities)
-{
-    std::vector<Light> lights(1000);
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        lights[i].power = i == 7 ? 1e5 : 0.1 + static_cast<double>(i % 13);
-    fill_alias_table(lights);
-    std::vector<double> mass(lights.size(), 0);
-    double sum = 0;
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        const double slot = 1.0 / static_cast<double>(lights.size());
-        mass[i] += slot * lights[i].alias_threshold;
-        mass[lights[i].alias] += slot * (1 - static_cast<double>(lights[i].alias_threshold));
-        sum += lights[i].pmf;
-    }
-    EXPECT_NEAR(sum, 1, 1e-6);
-    for (std::size_t i = 0; i < lights.size(); ++i)
-        EXPECT_NEAR(mass[i], lights[i].pmf, 1e-7) << i;
-}
-
-TEST(LightsTest, EmittersWithoutPowerOrAreaAreNotLights)
-{
-    Scene scene;
-    scene.materials = {{"dark"}, {"light", glm::vec3(0), glm::vec3(1)}};
-    scene.meshes.push_back(
-        {"degenerate", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 2}, {0, 1, 3}}});
-    scene.objects.push_back({"dark quad", 0, Quad{}});
-    scene.objects.push_back({"half degenerate", 1, MeshInstance{0, glm::dmat4(1)}});
-    scene.objects.push_back({"bright ball", 1, Sphere{{5, 0, 0}, 1}});
-    const PackedScene packed = pack_scene(scene);
-    EXPECT_EQ(packed.light_count(), 2U);
-    EXPECT_EQ(packed.dropped_triangles, 1U);
-    EXPECT_EQ(packed.content.triangles, 3U);
 }
 
 }  // namespace

@@ -1,0 +1,59 @@
+// LightTable: all lights of a scene at one moment, and the probability of choosing each.
+#pragma once
+
+#include "server/scene/effects.h"
+#include "server/scene/lights.h"
+#include "server/scene/texels.h"
+#include "server/scene/textures.h"
+
+#include <span>
+
+namespace farlight {
+
+/// What animation makes of the lights; an empty list leaves everything as the scene has it.
+struct LightPose {
+    std::span<const float> emission;  ///< Factor on that of each material.
+    std::span<const float> intensity;  ///< Factor on that of each of Scene::lights.
+    std::span<const glm::dmat4> world_from_node;  ///< Of each node.
+    float background = 1;  ///< Factor on Scene::background.
+};
+
+/// Lights keep their index for ever: first the area lights as they were given, then Scene::lights,
+/// last the environment map if there is one. A light without power stays, and is never chosen.
+class LightTable {
+public:
+    /// `area_lights`: the shapes of what is_sampled(), with their `object` (see lights.h).
+    /// `layout` has been laid out. The scene must outlive the table.
+    LightTable(const Scene& scene, const TextureLayout& layout, std::vector<Light> area_lights);
+
+    /// `shapes`: the area lights again, where they are now; empty: where they were.
+    void update(std::span<const Light> shapes, const LightPose& pose);
+
+    const std::vector<Light>& all() const { return lights_; }
+    std::uint32_t count() const { return static_cast<std::uint32_t>(lights_.size()); }
+    /// Adds what there is of each kind.
+    void count_kinds(SceneContent& content) const;
+
+    /// As shaders read them (shaders/shared/scene_layout.h). Sizes never change.
+    const Texels& lights() const { return packed_; }
+    const Texels& textures() const { return textures_; }
+    const Texels& environment() const { return environment_; }
+
+private:
+    void pose_area_lights(std::span<const Light> shapes, const LightPose& pose);
+    void pose_punctual_lights(const LightPose& pose);
+    void pack();
+
+    const Scene& scene_;
+    double scene_radius_ = 1;
+    std::size_t area_lights_ = 0;
+    std::vector<Light> lights_;  ///< As posed.
+    std::vector<Light> rest_;  ///< Before any factor.
+    std::vector<std::uint32_t> texture_places_;  ///< One an area light.
+    glm::dvec3 mean_environment_{0};
+    Texels packed_;
+    Texels textures_;
+    Texels environment_;
+};
+
+}  // namespace farlight

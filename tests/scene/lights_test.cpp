@@ -1,0 +1,266 @@
+// Which lights a scene has, how strong they are, and how likely each is chosen.
+#include "server/scene/alias_table.h"
+#include "server/scene/environment.h"
+#include "server/scene/packed_scene.h"
+#include "shaders/shared/scene_layout.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+namespace farlight {
+namespace {
+
+using std::numbers::pi;
+
+/// The probability that each index is drawn.
+std::vector<double> masses(std::span<const AliasSlot> slots)
+{
+    std::vector<double> mass(slots.size(), 0);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+        const auto threshold = static_cast<double>(slots[i].threshold);
+        mass[i] += threshold / static_cast<double>(slots.size());
+        mass[slots[i].alias] += (1 - threshold) / static_cast<double>(slots.size());
+    }
+    return mass;
+}
+
+TEST(AliasTables, HaveExactlyTheStatedProbabilities)
+{
+    std::vector<double> weights(1000);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i] = i == 7 ? 1e5 : static_cast<double>(i % 13);
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const std::vector<double> mass = masses(alias_table(weights));
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        if (weights[i] > 0)
+            EXPECT_NEAR(mass[i], weights[i] / total, 1e-7) << i;
+        else
+            EXPECT_EQ(mass[i], 0) << i;
+}
+
+TEST(AliasTables, NeverDrawWhatHasNoWeight)
+{
+    std::mt19937 random(1);
+    for (int n = 1; n < 60; ++n) {
+        std::vector<double> weights;
+        for (int i = 0; i < n; ++i)
+            weights.push_back(i == n / 2 || random() % 3 == 0 ? std::exp(random() % 50) : 0);
+        const std::vector<double> mass = masses(alias_table(weights));
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            EXPECT_EQ(mass[i] > 0, weights[i] > 0) << i << " of " << n;
+    }
+}
+
+Scene scene_with(Material material)
+{
+    Scene scene;
+    scene.materials = {{"dark"}, std::move(material)};
+    return scene;
+}
+
+TEST(Lights, AreNotEmittersWithoutPowerOrArea)
+{
+    Scene scene = scene_with({"light", glm::vec3(0), glm::vec3(1)});
+    scene.meshes.push_back(
+        {"degenerate", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 2}, {0, 1, 3}}});
+    scene.objects.push_back({"dark quad", 0, Quad{}});
+    scene.objects.push_back({"half degenerate", 1, MeshInstance{0, glm::dmat4(1)}});
+    scene.objects.push_back({"bright ball", 1, Sphere{{5, 0, 0}, 1}});
+    scene.objects.push_back({"bright disk", 1, Disk{}});
+    scene.objects.push_back({"line", 1, Quad{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}});
+    const PackedScene packed = pack_scene(scene);
+    EXPECT_EQ(packed.lights->count(), 3U);
+    EXPECT_EQ(packed.content.emissive_triangles, 1U);
+    EXPECT_EQ(packed.content.sphere_lights, 1U);
+    EXPECT_EQ(packed.content.disk_lights, 1U);
+    EXPECT_EQ(packed.content.polygon_lights, 0U);
+    for (const Light& light : packed.lights->all())
+        EXPECT_GT(light.pmf, 0);
+}
+
+double power_of(const Object& object, Material material)
+{
+    Scene scene = scene_with(std::move(material));
+    scene.objects.push_back(object);
+    scene.objects.back().material = 1;
+    const PackedScene packed = pack_scene(scene);
+    return packed.lights->all().at(0).power;
+}
+
+TEST(Lights, HaveTheFluxTheyEmit)
+{
+    Material light{"light", glm::vec3(0), glm::vec3(2)};
+    EXPECT_NEAR(power_of({"", 1, Sphere{{}, 3}}, light), pi * 2 * 4 * pi * 9, 1e-3);
+    EXPECT_NEAR(power_of({"", 1, Disk{{}, {0, 0, 1}, 3}}, light), pi * 2 * pi * 9, 1e-3);
+    EXPECT_NEAR(power_of({"", 1, Quad{{}, {3, 0, 0}, {1, 2, 0}}}, light), pi * 2 * 6, 1e-4);
+    light.emits_both_sides = true;
+    EXPECT_NEAR(power_of({"", 1, Quad{{}, {3, 0, 0}, {1, 2, 0}}}, light), 2 * pi * 2 * 6, 1e-4);
+    light.alpha_mode = AlphaMode::kBlend;
+    light.opacity = 0.25F;
+    EXPECT_NEAR(power_of({"", 1, Quad{{}, {3, 0, 0}, {1, 2, 0}}}, light), pi * 6, 1e-4);
+}
+
+TEST(PunctualLights, HaveTheFluxOfTheirFalloff)
+{
+    PunctualLight light;
+    light.intensity = glm::vec3(3);
+    const auto power = [&] {
+        Light packed = light_of(light, glm::dmat4(1));
+        packed.mean_luminance = luminance(light.intensity);
+        return light_power(packed, 5);
+    };
+    EXPECT_NEAR(power(), 4 * pi * 3, 1e-4);
+    light.kind = PunctualLight::Kind::kDirectional;
+    EXPECT_NEAR(power(), 3 * pi * 25, 1e-3);
+    light.kind = PunctualLight::Kind::kSpot;
+    light.inner_cone = 0.3;
+    light.outer_cone = 0.9;
+    double expected = 0;  // midpoint rule over the angle from the axis
+    constexpr int kSteps = 10000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double theta = 0.9 * (i + 0.5) / kSteps;
+        const double x = std::clamp(
+            (std::cos(theta) - std::cos(0.9)) / (std::cos(0.3) - std::cos(0.9)), 0.0, 1.0);
+        expected += 3 * x * x * 2 * pi * std::sin(theta) * 0.9 / kSteps;
+    }
+    EXPECT_NEAR(power(), expected, 1e-4 * expected);
+}
+
+/// Left half white, right half black.
+Image8 half_white(std::uint32_t size)
+{
+    Image8 image{"half", size, size, {}};
+    for (std::uint32_t i = 0; i < size * size; ++i)
+        image.texels.push_back(i % size < size / 2 ? glm::u8vec4(255) : glm::u8vec4(0, 0, 0, 255));
+    return image;
+}
+
+/// Two triangles that show one half of the picture each, at place `u` of it and to the right.
+Scene textured_strip(float u, float width)
+{
+    Scene scene = scene_with({"light", glm::vec3(0), glm::vec3(1)});
+    scene.images.push_back(half_white(64));
+    scene.materials[1].emission_texture.image = 0;
+    Mesh mesh{"strip", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {{0, 1, 2}}};
+    mesh.uvs[0] = {{u, 0.2F}, {u + width, 0.2F}, {u, 0.8F}};
+    scene.meshes.push_back(mesh);
+    scene.objects.push_back({"strip", 1, MeshInstance{}});
+    return scene;
+}
+
+TEST(TexturedLights, HaveTheMeanPowerOfTheirTexels)
+{
+    const auto luminance_at = [](float u, float width) {
+        const Scene scene = textured_strip(u, width);
+        return pack_scene(scene).lights->all().at(0).mean_luminance;
+    };
+    EXPECT_NEAR(luminance_at(0.1F, 0.3F), 1, 1e-6);
+    EXPECT_EQ(luminance_at(0.6F, 0.3F), 0);
+    // Of the triangle from u = 0.25 to 0.75, three quarters lie left of the middle. A tenth: eight
+    // columns of places, of which the middle one may fall on either side.
+    EXPECT_NEAR(luminance_at(0.25F, 0.5F), 0.75, 0.1);
+}
+
+TEST(TexturedLights, AreNeverChosenWhereTheirTexelsAreBlack)
+{
+    Scene scene = textured_strip(0.6F, 0.3F);
+    scene.objects.push_back({"lamp", 1, Disk{}});  // at uv (0, 0), which is white
+    const PackedScene packed = pack_scene(scene);
+    EXPECT_EQ(packed.lights->all().at(0).pmf, 0);
+    EXPECT_EQ(packed.lights->all().at(1).pmf, 1);
+}
+
+TEST(TexturedLights, OnASphereAreLeftToTheBsdf)
+{
+    Scene scene = textured_strip(0, 0.3F);
+    scene.objects.push_back({"ball", 1, Sphere{}});
+    EXPECT_TRUE(is_sampled(scene, scene.objects[0]));
+    EXPECT_FALSE(is_sampled(scene, scene.objects[1]));
+}
+
+EnvironmentMap random_map(std::uint32_t width, std::uint32_t height)
+{
+    std::mt19937 random(5);
+    EnvironmentMap map{"map", width, height, {}};
+    for (std::uint32_t i = 0; i < width * height; ++i)
+        map.texels.emplace_back(random() % 7, random() % 5, random() % 3);
+    return map;
+}
+
+TEST(Environments, SampleEveryTexelWithADensityThatIntegratesToOne)
+{
+    for (const auto& [width, height] : {std::pair{8U, 4U}, {5U, 3U}, {1U, 1U}}) {
+        EnvironmentMap map = random_map(width, height);
+        map.texels[0] = glm::vec3(1000, 2000, 3000);
+        const PackedEnvironment packed = pack_environment(map, glm::mat3(1));
+        double sum = 0;
+        for (std::uint32_t y = 0; y < height; ++y)
+            for (std::uint32_t x = 0; x < width; ++x)
+                sum += static_cast<double>(glm::uintBitsToFloat(
+                           packed.texels[ENVIRONMENT_HEADER_TEXELS + y * width + x].w))
+                    * 2 * pi / width
+                    * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
+        EXPECT_NEAR(sum, 1, 1e-6) << width << "x" << height;
+    }
+}
+
+TEST(Environments, OfOneColourHaveThatMean)
+{
+    EnvironmentMap map = random_map(16, 8);
+    for (glm::vec3& texel : map.texels)
+        texel = glm::vec3(1, 2, 3);
+    const glm::dvec3 mean = pack_environment(map, glm::mat3(1)).mean_radiance;
+    EXPECT_NEAR(glm::length(mean - glm::dvec3(1, 2, 3)), 0, 1e-9);
+}
+
+/// One light of each kind, with tracks' factors applied.
+TEST(LightTables, FollowTheirPose)
+{
+    Scene scene = scene_with({"light", glm::vec3(0), glm::vec3(1)});
+    scene.objects.push_back({"quad", 1, Quad{}});
+    scene.lights.push_back({.name = "lamp", .node = 0});
+    scene.animation.nodes.push_back({"carrier"});
+    scene.background = glm::vec3(1);
+    scene.environment = std::make_shared<EnvironmentMap>(random_map(8, 4));
+    LightTable table = *pack_scene(scene).lights;
+    const std::vector<Light> rest = table.all();
+    const auto total = [&] {
+        double sum = 0;
+        for (const Light& light : table.all())
+            sum += static_cast<double>(light.pmf);
+        return sum;
+    };
+    ASSERT_EQ(rest.size(), 3U);
+    EXPECT_NEAR(total(), 1, 1e-6);
+
+    const float emission[] = {1, 3};
+    const float intensity[] = {0};
+    const glm::dmat4 nodes[] = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {5, 6, 7, 1}}};
+    Light moved = rest[0];
+    moved.p0 = {1, 2, 3};
+    moved.area *= 2;
+    table.update(std::span(&moved, 1), {emission, intensity, nodes, 0.5F});
+    EXPECT_EQ(table.all()[0].radiance, glm::vec3(3));
+    EXPECT_EQ(table.all()[0].p0, glm::vec3(1, 2, 3));
+    EXPECT_NEAR(table.all()[0].power, 6 * rest[0].power, 1e-6);
+    EXPECT_EQ(table.all()[1].power, 0);
+    EXPECT_EQ(table.all()[1].pmf, 0);
+    EXPECT_EQ(table.all()[1].p0, glm::vec3(5, 6, 7));
+    EXPECT_NEAR(table.all()[2].power, 0.5 * rest[2].power, 1e-6);
+    EXPECT_NEAR(total(), 1, 1e-6);
+
+    table.update(std::span(rest.data(), 1), {});
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        EXPECT_EQ(table.all()[i].pmf, rest[i].pmf) << i;
+        EXPECT_EQ(table.all()[i].radiance, rest[i].radiance) << i;
+    }
+    const float dark[] = {0, 0};
+    table.update({}, {dark, intensity, {}, 0});
+    EXPECT_EQ(total(), 0);
+}
+
+}  // namespace
+}  // namespace farlight
