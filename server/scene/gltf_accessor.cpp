@@ -118,6 +118,13 @@ std::vector<Element> read_accessor(const GltfContainer& gltf, const Json& index)
     Source source{nullptr, 0, element_layout(accessor["type"].get_ref<const std::string&>(), type),
         type, accessor.value("normalized", false)};
     std::vector<Element> out(accessor["count"].get<std::size_t>(), Element(0));
+    if (const auto unpacked = gltf.unpacked.find(index.get<std::size_t>());
+        unpacked != gltf.unpacked.end()) {
+        source.bytes = unpacked->second.data();
+        source.stride = source.layout.size;
+        read_all(source, out);
+        return out;
+    }
     if (accessor.contains("bufferView")) {
         const Json& view = gltf.list("bufferViews")[accessor["bufferView"].get<std::size_t>()];
         source.bytes = view_bytes(gltf, accessor);

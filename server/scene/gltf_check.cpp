@@ -2,6 +2,7 @@
 #include "server/scene/gltf_check.h"
 
 #include "server/scene/gltf_component.h"
+#include "server/scene/gltf_meshopt.h"
 
 #include <cstdint>
 
@@ -68,6 +69,7 @@ private:
             gltf_.item(into, indices[i], place / key / i);
     }
 
+    void check_bytes(const Json& part, const ScenePlace& place) const;
     void check_buffer_view(const Json& view, const ScenePlace& place) const;
     void check_accessor(const Json& accessor, const ScenePlace& place) const;
     void check_sparse(const Json& accessor, const ScenePlace& place) const;
@@ -103,17 +105,35 @@ void check_range(const Strided& range, const ScenePlace& place)
                 + ", what the buffer view holds");
 }
 
-void Checker::check_buffer_view(const Json& view, const ScenePlace& place) const
+/// `part` is a buffer view or what stands for it compressed.
+void Checker::check_bytes(const Json& part, const ScenePlace& place) const
 {
-    const Json& buffer = gltf_.item("buffers", view["buffer"], place / "buffer");
+    const Json& buffer = gltf_.item("buffers", part["buffer"], place / "buffer");
     const std::uint64_t length = number(buffer, "byteLength");
-    const std::uint64_t offset = number(view, "byteOffset");
+    if (gltf_.buffers[part["buffer"].get<std::size_t>()].empty())
+        refuse(place / "buffer", "a buffer that stands in for compressed views",
+            "a buffer with bytes");
+    const std::uint64_t offset = number(part, "byteOffset");
     if (offset >= length)
         refuse(place / "byteOffset", std::to_string(offset),
             "less than " + std::to_string(length) + ", the buffer's byteLength");
-    if (number(view, "byteLength") > length - offset)
-        refuse(place / "byteLength", view["byteLength"].dump(),
+    if (number(part, "byteLength") > length - offset)
+        refuse(place / "byteLength", part["byteLength"].dump(),
             "at most " + std::to_string(length - offset) + ", what the buffer still holds");
+}
+
+void Checker::check_buffer_view(const Json& view, const ScenePlace& place) const
+{
+    const Json* meshopt = gltf_extension(view, "EXT_meshopt_compression");
+    if (meshopt == nullptr)
+        return check_bytes(view, place);
+    const ScenePlace packed_place = place / "extensions" / "EXT_meshopt_compression";
+    check_bytes(*meshopt, packed_place);
+    check_gltf_meshopt(*meshopt, packed_place);
+    const std::uint64_t unpacked = number(*meshopt, "count") * number(*meshopt, "byteStride");
+    if (unpacked != number(view, "byteLength"))
+        refuse(place / "byteLength", view["byteLength"].dump(),
+            std::to_string(unpacked) + ", what its compressed bytes hold");
 }
 
 void Checker::check_accessor(const Json& accessor, const ScenePlace& place) const

@@ -91,7 +91,8 @@ ByteSpan read_buffer(GltfContainer& container, const Json& buffer,
         return cut_to_length(container.keep(read_gltf_uri(buffer.at("uri").get<std::string>(),
                                  container.folder, place / "uri")),
             length, place);
-    if (gltf_extension(buffer, "EXT_meshopt_compression") != nullptr)
+    if (const Json* meshopt = gltf_extension(buffer, "EXT_meshopt_compression");
+        meshopt != nullptr && meshopt->value("fallback", false))
         return {};
     if (!binary)
         refuse(place, "no key \"uri\"", "a uri, or a GLB with a binary chunk");

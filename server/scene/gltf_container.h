@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -24,6 +25,8 @@ struct GltfContainer {
     /// compressed views (EXT_meshopt_compression).
     std::vector<ByteSpan> buffers;
     std::vector<ByteSpan> views;  ///< Bytes of /bufferViews/i, decompressed; see gltf_views.h.
+    /// Packed elements of accessors that a primitive keeps compressed (gltf_draco.h), by index.
+    std::map<std::size_t, ByteSpan> unpacked;
     std::deque<std::string> storage;  ///< What the spans point into.
 
     /// document[name], or an empty array.

@@ -1,10 +1,12 @@
 // Walks the node tree of a glTF file: meshes become instances, the first camera the camera.
 #include "server/scene/gltf_file.h"
 
-#include "server/scene/camera_limits.h"
+#include "server/scene/gltf_camera.h"
 #include "server/scene/gltf_check.h"
 #include "server/scene/gltf_container.h"
+#include "server/scene/gltf_draco.h"
 #include "server/scene/gltf_extensions.h"
+#include "server/scene/gltf_light.h"
 #include "server/scene/gltf_material.h"
 #include "server/scene/gltf_mesh.h"
 #include "server/scene/gltf_node.h"
@@ -33,7 +35,7 @@ struct Part {
 
 class Reader {
 public:
-    explicit Reader(const GltfContainer& gltf) : gltf_(gltf), root_(gltf.root)
+    explicit Reader(GltfContainer& gltf) : gltf_(gltf), root_(gltf.root)
     {
         result_.scene.file = root_.file;
     }
@@ -44,8 +46,7 @@ public:
         read_nodes();
         if (result_.scene.objects.empty())
             refuse(root_ / "scenes", "no mesh of triangles in the scene's nodes", "at least one");
-        if (camera_node_)
-            place_camera();
+        place_cameras();
         note_the_rest();
         return std::move(result_);
     }
@@ -56,15 +57,18 @@ private:
     void add_part(const GltfNode& node, Part& part, const std::string& name);
     std::vector<Part>& parts_of(std::size_t mesh);
     std::uint32_t default_material();
-    void place_camera();
+    void add_light(const GltfNode& node, const Json& index);
+    void place_cameras();
     void note_the_rest();
 
-    const GltfContainer& gltf_;
+    GltfContainer& gltf_;
     ScenePlace root_;
     GltfScene result_;
     std::map<std::size_t, std::vector<Part>> parts_;  // by glTF mesh
     std::optional<std::uint32_t> default_material_;
-    std::optional<GltfNode> camera_node_;
+    std::vector<GltfNode> camera_nodes_;
+    std::size_t changed_lights_ = 0;
+    std::size_t flat_lights_ = 0;  // whose transform leaves no direction
     MeshRepairs repairs_;
     std::size_t skipped_primitives_ = 0;  // points and lines
     std::size_t flat_instances_ = 0;  // whose transform has no volume
@@ -83,9 +87,10 @@ void Reader::read_nodes()
 void Reader::read_node(const GltfNode& node)
 {
     const Json& found = gltf_.list("nodes")[node.index];
-    if (found.contains("camera") && !camera_node_
-        && gltf_.list("cameras")[found["camera"].get<std::size_t>()]["type"] == "perspective")
-        camera_node_ = node;
+    if (found.contains("camera"))
+        camera_nodes_.push_back(node);
+    if (const Json* light = gltf_extension(found, "KHR_lights_punctual"))
+        add_light(node, (*light)["light"]);
     if (!found.contains("mesh"))
         return;
     const auto mesh = found["mesh"].get<std::size_t>();
@@ -140,6 +145,7 @@ std::vector<Part>& Reader::parts_of(std::size_t mesh)
         const std::uint32_t material = primitive.contains("material")
             ? primitive["material"].get<std::uint32_t>()
             : default_material();
+        unpack_gltf_draco(gltf_, primitive, place / i);
         Mesh read = read_gltf_primitive(gltf_, primitive, place / i, repairs_);
         read.name = found.value("name", "");
         if (const Texture* normals = normal_map(result_.scene.materials[material]);
@@ -161,33 +167,49 @@ std::uint32_t Reader::default_material()
     return *default_material_;
 }
 
-/// A glTF camera looks along its -z; it has no target, so the point nearest to the scene's middle
-/// stands for it.
-void Reader::place_camera()
+void Reader::add_light(const GltfNode& node, const Json& index)
 {
-    const glm::dmat4& world = camera_node_->world_from_node;
-    const Json& node = gltf_.list("nodes")[camera_node_->index];
-    const Json& found = gltf_.list("cameras")[node["camera"].get<std::size_t>()];
-    const glm::dvec3 position(world[3]);
-    const glm::dvec3 view = glm::normalize(-glm::dvec3(world[2]));
-    const glm::dvec3 up = glm::normalize(glm::dvec3(world[1]));
-    if (!(glm::length(view) > 0) || !(glm::length(up) > 0))
-        return;  // a flat transform has no direction
-    const Bounds bounds = scene_bounds(result_.scene);
-    const double ahead = glm::dot(bounds.center() - position, view);
-    const double nearest = 2 * nearest_target(position, position);
-    const double distance =
-        ahead > nearest ? ahead : std::max(bounds.radius(), glm::length(position));
-    const double wanted_fov = glm::degrees(found["perspective"]["yfov"].get<double>());
-    const double fov = std::clamp(wanted_fov, kNarrowestFov, kWidestFov);
-    if (fov != wanted_fov)
-        result_.scene.notes.push_back("the camera's yfov of " + nlohmann::json(wanted_fov).dump()
-            + " degrees is drawn as " + nlohmann::json(fov).dump());
-    result_.scene.camera = {.position = position,
-        .target = position + distance * view,
-        .up = up,
-        .vertical_fov_degrees = fov};
-    result_.has_camera = true;
+    PunctualLight light = read_gltf_light(gltf_, index,
+        root_ / "nodes" / node.index / "extensions" / "KHR_lights_punctual" / "light",
+        changed_lights_);
+    if (light.name.empty())
+        light.name = gltf_.list("nodes")[node.index].value("name", "");
+    if (light.name.empty())
+        light.name = "light " + std::to_string(result_.scene.lights.size());
+    if (place_light(light, node.world_from_node))
+        result_.scene.lights.push_back(std::move(light));
+    else
+        ++flat_lights_;
+}
+
+/// The first perspective camera is the scene's; the others become paths of one keyframe.
+void Reader::place_cameras()
+{
+    Scene& scene = result_.scene;
+    const Bounds bounds = scene_bounds(scene);
+    std::size_t orthographic = 0;
+    for (const GltfNode& node : camera_nodes_) {
+        const Json& found = gltf_.list("nodes")[node.index];
+        const Json& camera = gltf_.list("cameras")[found["camera"].get<std::size_t>()];
+        if (camera["type"] != "perspective") {
+            ++orthographic;
+            continue;
+        }
+        const auto pose = gltf_camera_pose(camera, node.world_from_node, bounds, scene.notes);
+        if (!pose)
+            continue;
+        if (!result_.has_camera) {
+            scene.camera = *pose;
+            result_.has_camera = true;
+            continue;
+        }
+        std::string name = found.value("name", camera.value("name", "camera"));
+        while (scene.camera_paths.contains(name))
+            name += "'";
+        scene.camera_paths[name] = {{0, *pose}};
+    }
+    if (orthographic > 0)
+        scene.notes.push_back(std::to_string(orthographic) + " orthographic cameras left out");
 }
 
 void Reader::note_the_rest()
@@ -201,6 +223,12 @@ void Reader::note_the_rest()
     if (flat_instances_ > 0)
         notes.push_back(
             std::to_string(flat_instances_) + " objects left out: a scale of 0 makes them flat");
+    if (changed_lights_ > 0)
+        notes.push_back(
+            std::to_string(changed_lights_) + " lights with numbers outside their range clamped");
+    if (flat_lights_ > 0)
+        notes.push_back(
+            std::to_string(flat_lights_) + " lights left out: a scale of 0 leaves no direction");
     if (default_material_)
         notes.emplace_back("primitives without a material are white rough metal, as glTF has it");
 }

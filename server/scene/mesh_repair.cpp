@@ -140,7 +140,7 @@ std::vector<std::string> MeshRepairs::notes() const
             + " without a direction: its mesh gets new ones where it needs any");
     if (replaced_uvs > 0)
         notes.push_back(counted(replaced_uvs, "texture coordinate", "texture coordinates")
-            + " that are not finite replaced by 0, 0");
+            + " not finite: now 0, 0");
     if (changed_colors > 0)
         notes.push_back(
             counted(changed_colors, "vertex colour", "vertex colours") + " outside [0, 1] clamped");

@@ -47,9 +47,10 @@ INSTANTIATE_TEST_SUITE_P(Document, BadGltfTest,
         BadGltf{"NoAsset", "/asset", "",
             "found no key \"asset\", expected a glTF 2.0 object with asset, scenes, nodes, "
             "meshes, ..."},
-        BadGltf{"Draco", "/extensionsRequired", R"(["KHR_draco_mesh_compression", "X_other"])",
-            "/extensionsRequired: found KHR_draco_mesh_compression, X_other, expected none but "
-            "extensions that Farlight reads: KHR_materials_clearcoat, "
+        BadGltf{"Extensions", "/extensionsRequired", R"(["X_this", "KHR_materials_ior", "X_that"])",
+            "/extensionsRequired: found X_this, X_that, expected none but extensions that Farlight "
+            "reads: EXT_meshopt_compression, KHR_draco_mesh_compression, KHR_lights_punctual, "
+            "KHR_materials_clearcoat, "
             "KHR_materials_emissive_strength, KHR_materials_ior, KHR_materials_specular, "
             "KHR_materials_transmission, KHR_materials_unlit, KHR_materials_volume, "
             "KHR_mesh_quantization, KHR_texture_transform"},
