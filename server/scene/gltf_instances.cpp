@@ -176,10 +176,18 @@ void GltfInstances::take_camera(const GltfScene& file, const GltfInstance& insta
     if (has_camera_ || !file.has_camera)
         return;
     has_camera_ = true;
-    scene_.camera = file.scene.camera;
-    scene_.camera.position = moved(instance.world_from_file, scene_.camera.position);
-    scene_.camera.target = moved(instance.world_from_file, scene_.camera.target);
-    scene_.camera.up = turned(instance.world_from_file, scene_.camera.up);
+    const auto placed = [&](CameraPose pose) {
+        pose.position = moved(instance.world_from_file, pose.position);
+        pose.target = moved(instance.world_from_file, pose.target);
+        pose.up = turned(instance.world_from_file, pose.up);
+        return pose;
+    };
+    scene_.camera = placed(file.scene.camera);
+    if (!whole_scene_)  // which has no paths of its own
+        return;
+    for (const auto& [name, keyframes] : file.scene.camera_paths)
+        for (const CameraKeyframe& keyframe : keyframes)
+            scene_.camera_paths[name].push_back({keyframe.frame, placed(keyframe.pose)});
 }
 
 }  // namespace farlight

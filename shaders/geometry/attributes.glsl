@@ -13,10 +13,10 @@ vec3 corner_weights(vec2 barycentric) { return vec3(1.0 - barycentric.x - baryce
 // Unit; `geometric_normal` if the triangle is flat.
 vec3 interpolated_normal(int triangle, vec3 weights, vec3 geometric_normal)
 {
-    const uvec4 packed = fetch_attribute(normals, triangle);
-    const vec3 normal = normalize(weights.x * unpack_octahedral(packed.x) + weights.y * unpack_octahedral(packed.y)
-        + weights.z * unpack_octahedral(packed.z));
-    return packed.w != 0u ? normal : geometric_normal;
+    const uvec4 coded = fetch_attribute(normals, triangle);
+    const vec3 normal = normalize(weights.x * unpack_octahedral(coded.x) + weights.y * unpack_octahedral(coded.y)
+        + weights.z * unpack_octahedral(coded.z));
+    return coded.w != 0u ? normal : geometric_normal;
 }
 #endif
 
@@ -45,10 +45,10 @@ void interpolated_uvs(int triangle, vec3 weights, out vec2 uv[2], out vec2 log2_
 // xyz unit; w is the first corner's, for faces do not straddle a mirror seam.
 vec4 interpolated_tangent(int triangle, vec3 weights)
 {
-    const uvec4 packed = fetch_attribute(tangents, triangle);
-    const vec3 tangent = weights.x * unpack_octahedral(packed.x) + weights.y * unpack_octahedral(packed.y)
-        + weights.z * unpack_octahedral(packed.z);
-    return vec4(normalize(tangent), (packed.w & 1u) != 0u ? -1.0 : 1.0);
+    const uvec4 coded = fetch_attribute(tangents, triangle);
+    const vec3 tangent = weights.x * unpack_octahedral(coded.x) + weights.y * unpack_octahedral(coded.y)
+        + weights.z * unpack_octahedral(coded.z);
+    return vec4(normalize(tangent), (coded.w & 1u) != 0u ? -1.0 : 1.0);
 }
 #endif
 
