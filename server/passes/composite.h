@@ -1,21 +1,35 @@
-// Composite stage: albedo * light + emission.
+// Composite stage: the signals put back together.
 #pragma once
 
 #include "server/passes/path_trace.h"
 
 namespace farlight {
 
-/// Scene-linear radiance (rgba32f). `name` tells the raw picture from the denoised one.
-inline TextureHandle add_composite(
-    FrameGraph& graph, const std::string& name, const GBuffer& gbuffer, const Signals& light)
+/// Scene-linear radiance (rgba32f). `name` tells the raw picture from the denoised one. Without
+/// signals (no light scatters) only emission is seen.
+inline TextureHandle add_composite(FrameGraph& graph, const std::string& name,
+    const FrameInputs& inputs, const GBuffer& gbuffer, const Signals& light)
 {
     const TextureHandle radiance = graph.create(name, GL_RGBA32F);
-    graph.add_pass(name, "composite/composite.comp")
-        .read("in_direct", light.direct)
-        .read("in_indirect", light.indirect)
-        .read("in_albedo", gbuffer.albedo)
-        .read("in_emission", gbuffer.emission)
-        .write("out_radiance", radiance);
+    const bool lit = light.direct.index >= 0;
+    Pass& pass = graph.add_pass(name, "composite/composite.comp")
+                     .read("in_emission", gbuffer.emission)
+                     .write("out_radiance", radiance);
+    if (lit)
+        pass.define({{"LIT", "1"}})
+            .read("in_direct", light.direct)
+            .read("in_indirect", light.indirect)
+            .read("in_albedo", gbuffer.albedo);
+    if (lit && inputs.has_specular())
+        pass.define({{"FX_SPECULAR_SIGNAL", "1"}})
+            .read("in_specular", light.specular)
+            .read("in_reflectance", gbuffer.reflectance);
+    if (inputs.has_fog())
+        pass.define({{"FX_FOG", "1"}})
+            .read("in_fog_way", gbuffer.fog_way)
+            .constant("fog_sigma_t", inputs.fog.sigma_t);
+    if (lit && inputs.has_fog())
+        pass.read("in_scattered", light.scattered);
     return radiance;
 }
 

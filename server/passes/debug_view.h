@@ -40,6 +40,10 @@ inline ViewRecipe recipe_of(DebugView view, const FrameBuffers& b, const ViewSca
             return {b.noisy.direct, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
         case DebugView::kIndirect:
             return {b.noisy.indirect, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
+        case DebugView::kSpecular:
+            return {b.noisy.specular, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
+        case DebugView::kScattered:
+            return {b.noisy.scattered, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};
         case DebugView::kAlbedo: return {b.gbuffer.albedo, "VIEW_COLOR", "SHOW_RADIANCE", 1};
         case DebugView::kEmission:
             return {b.gbuffer.emission, "VIEW_COLOR", "SHOW_RADIANCE", scales.exposure};

@@ -1,51 +1,73 @@
 // G-buffer stage: what each pixel's ray meets first.
 #pragma once
 
-#include "server/render/frame_graph.h"
+#include "server/passes/frame_inputs.h"
 
 namespace farlight {
 
 /// Texture contents: shaders/gbuffer/gbuffer.comp.
 struct GBuffer {
+    TextureHandle hit;
     TextureHandle surface;
     TextureHandle identity;
     TextureHandle position;
     TextureHandle albedo;
     TextureHandle emission;
     TextureHandle motion;
+    TextureHandle reflectance;  ///< Only in scenes with something specular.
+    TextureHandle fog_way;  ///< Only in fog.
     TextureHandle prev_surface;  ///< Last frame's; only with `keep_history`.
     TextureHandle prev_identity;
+    TextureHandle prev_fog_way;
     bool history_valid = false;
 };
 
 /// `keep_history`: a temporal filter will want last frame's surface and identity.
-inline GBuffer add_gbuffer(FrameGraph& graph, const SceneInputs& scene, bool keep_history)
+inline GBuffer gbuffer_textures(FrameGraph& graph, const FrameInputs& inputs, bool keep_history)
 {
     GBuffer gbuffer;
-    if (keep_history) {
-        const History surface = graph.history("gbuffer.surface", GL_RGBA32UI);
-        const History identity = graph.history("gbuffer.identity", GL_RGBA32UI);
-        gbuffer.surface = surface.current;
-        gbuffer.identity = identity.current;
-        gbuffer.prev_surface = surface.previous;
-        gbuffer.prev_identity = identity.previous;
-        gbuffer.history_valid = surface.valid && identity.valid;
-    } else {
-        gbuffer.surface = graph.create("gbuffer.surface", GL_RGBA32UI);
-        gbuffer.identity = graph.create("gbuffer.identity", GL_RGBA32UI);
-    }
+    gbuffer.history_valid = keep_history;
+    const auto kept = [&](const char* name, GLenum format, TextureHandle& previous) {
+        if (!keep_history)
+            return graph.create(name, format);
+        const History history = graph.history(name, format);
+        previous = history.previous;
+        gbuffer.history_valid = gbuffer.history_valid && history.valid;
+        return history.current;
+    };
+    gbuffer.surface = kept("gbuffer.surface", GL_RGBA32UI, gbuffer.prev_surface);
+    gbuffer.identity = kept("gbuffer.identity", GL_RGBA32UI, gbuffer.prev_identity);
+    gbuffer.hit = graph.create("gbuffer.hit", GL_RGBA32UI);
     gbuffer.position = graph.create("gbuffer.position", GL_RGBA32F);
     gbuffer.albedo = graph.create("gbuffer.albedo", GL_RGBA32F);
     gbuffer.emission = graph.create("gbuffer.emission", GL_RGBA32F);
     gbuffer.motion = graph.create("gbuffer.motion", GL_RGBA32F);
-    graph.add_pass("gbuffer", "gbuffer/gbuffer.comp")
-        .scene(scene)
-        .write("out_surface", gbuffer.surface)
-        .write("out_identity", gbuffer.identity)
-        .write("out_position", gbuffer.position)
-        .write("out_albedo", gbuffer.albedo)
-        .write("out_emission", gbuffer.emission)
-        .write("out_motion", gbuffer.motion);
+    if (inputs.has_specular())
+        gbuffer.reflectance = graph.create("gbuffer.reflectance", GL_RGBA32F);
+    if (inputs.has_fog())
+        gbuffer.fog_way = kept("gbuffer.fog_way", GL_R32F, gbuffer.prev_fog_way);
+    return gbuffer;
+}
+
+inline GBuffer add_gbuffer(FrameGraph& graph, const FrameInputs& inputs, bool keep_history)
+{
+    const GBuffer gbuffer = gbuffer_textures(graph, inputs, keep_history);
+    Pass& pass = graph.add_pass("gbuffer", "gbuffer/gbuffer.comp")
+                     .scene(inputs.scene)
+                     .write("out_hit", gbuffer.hit)
+                     .write("out_surface", gbuffer.surface)
+                     .write("out_identity", gbuffer.identity)
+                     .write("out_position", gbuffer.position)
+                     .write("out_albedo", gbuffer.albedo)
+                     .write("out_emission", gbuffer.emission)
+                     .write("out_motion", gbuffer.motion);
+    inputs.add_primary_ray_constants(pass);
+    if (inputs.has_specular())
+        pass.write("out_reflectance", gbuffer.reflectance);
+    if (inputs.has_fog()) {
+        pass.write("out_fog_way", gbuffer.fog_way);
+        inputs.add_fog_sphere(pass);
+    }
     return gbuffer;
 }
 

@@ -6,30 +6,52 @@
 
 namespace farlight {
 
-/// Light at the first surface without that surface's albedo (rgba32f; alpha is the variance after a
-/// filter).
+/// Light at the first surface (rgba32f; alpha is the variance after a filter, see the shaders
+/// before one).
 struct Signals {
-    TextureHandle direct;
-    TextureHandle indirect;
+    TextureHandle direct;  ///< Diffuse, without the surface's albedo.
+    TextureHandle indirect;  ///< Likewise.
+    TextureHandle specular;  ///< Without its reflectance; only in scenes with something specular.
+    TextureHandle scattered;  ///< On the way to the surface; only in fog.
 };
 
-inline Signals add_path_trace(FrameGraph& graph, const SceneInputs& scene, const GBuffer& gbuffer,
+/// The signals the scene has, as textures called `prefix`.direct and so on.
+inline Signals create_signals(
+    FrameGraph& graph, const FrameInputs& inputs, const std::string& prefix)
+{
+    Signals signals{graph.create(prefix + ".direct", GL_RGBA32F),
+        graph.create(prefix + ".indirect", GL_RGBA32F), {}, {}};
+    if (inputs.has_specular())
+        signals.specular = graph.create(prefix + ".specular", GL_RGBA32F);
+    if (inputs.has_fog())
+        signals.scattered = graph.create(prefix + ".scattered", GL_RGBA32F);
+    return signals;
+}
+
+inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, const GBuffer& gbuffer,
     const RenderSettings& settings)
 {
-    const Signals signals{graph.create("path_trace.direct", GL_RGBA32F),
-        graph.create("path_trace.indirect", GL_RGBA32F)};
+    const Signals signals = create_signals(graph, inputs, "path_trace");
     Pass& pass = graph.add_pass("path_trace", "path_trace/path_trace.comp")
-                     .scene(scene)
-                     .read("in_surface", gbuffer.surface)
-                     .read("in_identity", gbuffer.identity)
-                     .read("in_position", gbuffer.position)
+                     .scene(inputs.scene)
+                     .read("in_hit", gbuffer.hit)
                      .write("out_direct", signals.direct)
                      .write("out_indirect", signals.indirect)
                      .constant("samples_per_pixel", settings.samples_per_pixel)
                      .constant("max_depth", settings.max_depth)
                      .constant("roulette_depth", settings.roulette_depth);
-    if (scene.calls_for("FX_LIGHTS"))
+    inputs.add_primary_ray_constants(pass);
+    if (inputs.scene.calls_for("FX_LIGHTS"))
         pass.constant("light_sampling", settings.light_sampling ? 1 : 0);
+    if (inputs.has_specular())
+        pass.read("in_reflectance", gbuffer.reflectance).write("out_specular", signals.specular);
+    if (inputs.has_fog()) {
+        inputs.add_fog_sphere(pass);
+        pass.write("out_scattered", signals.scattered)
+            .constant("fog_sigma_t", inputs.fog.sigma_t)
+            .constant("fog_sigma_s", inputs.fog.sigma_s)
+            .constant("fog_g", inputs.fog.g);
+    }
     return signals;
 }
 

@@ -31,33 +31,34 @@ std::optional<TextureHandle> add_debug_view(
 
 }  // namespace
 
-TextureHandle build_frame(FrameGraph& graph, const SceneInputs& scene, const FramePlan& plan)
+TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan)
 {
     const RenderSettings& settings = plan.settings;
-    FrameBuffers buffers;
-    buffers.gbuffer = add_gbuffer(graph, scene, settings.denoiser == Denoiser::kSvgf);
-    buffers.noisy = add_path_trace(graph, scene, buffers.gbuffer, settings);
+    const bool lit = plan.scatters && settings.max_depth > 1;
+    const bool denoises = settings.denoiser == Denoiser::kSvgf && lit;
     const bool averages = settings.denoiser == Denoiser::kAccumulate || plan.refine;
     const bool shows_raw =
         settings.view == DebugView::kRawRadiance || settings.view == DebugView::kSheet;
-    if (settings.denoiser != Denoiser::kSvgf || averages || shows_raw)
-        buffers.raw = add_composite(graph, "composite raw", buffers.gbuffer, buffers.noisy);
+    FrameBuffers buffers;
+    buffers.gbuffer = add_gbuffer(graph, inputs, denoises);
+    if (lit)
+        buffers.noisy = add_path_trace(graph, inputs, buffers.gbuffer, settings);
+    if (!denoises || averages || shows_raw)
+        buffers.raw = add_composite(graph, "composite raw", inputs, buffers.gbuffer, buffers.noisy);
 
     TextureHandle radiance = buffers.raw;
-    if (settings.denoiser == Denoiser::kSvgf) {
-        const SvgfOutput svgf = add_svgf(graph, buffers.gbuffer, buffers.noisy, settings);
+    if (denoises) {
+        const SvgfOutput svgf = add_svgf(graph, inputs, buffers.gbuffer, buffers.noisy, settings);
         buffers.blended = svgf.blended;
         buffers.history_length = svgf.history_length;
-        radiance = add_composite(graph, "composite", buffers.gbuffer, svgf.filtered);
+        radiance = add_composite(graph, "composite", inputs, buffers.gbuffer, svgf.filtered);
     }
     if (averages) {
         const TextureHandle mean = add_accumulate(graph, buffers.raw, plan.mean_frames);
         const auto samples = static_cast<float>(plan.mean_frames * settings.samples_per_pixel);
         const float mean_weight =
             samples / (samples + static_cast<float>(settings.refine_crossover));
-        radiance = settings.denoiser == Denoiser::kSvgf
-            ? add_refine(graph, radiance, mean, mean_weight)
-            : mean;
+        radiance = denoises ? add_refine(graph, radiance, mean, mean_weight) : mean;
     }
 
     if (const auto debug = add_debug_view(graph, buffers, plan))

@@ -1,7 +1,7 @@
 // One frame as a list of passes. Read frame.cpp first: it is the renderer at a glance.
 #pragma once
 
-#include "server/render/frame_graph.h"
+#include "server/passes/frame_inputs.h"
 #include "server/render/settings.h"
 
 #include <optional>
@@ -14,11 +14,12 @@ struct FramePlan {
     int mean_frames = 1;  ///< Frames in the running mean with this one.
     bool refine = false;
     float scene_radius = 1;  ///< [m], scales debug views.
+    bool scatters = true;  ///< Something in the scene is lit and can show it.
     bool linear_output =
         false;  ///< The caller wants numbers (rgba32f), not display values (rgba8).
 };
 
 /// Declares the whole frame; returns the texture to read back, rgba8 or rgba32f.
-TextureHandle build_frame(FrameGraph& graph, const SceneInputs& scene, const FramePlan& plan);
+TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan);
 
 }  // namespace farlight

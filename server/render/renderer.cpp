@@ -121,9 +121,8 @@ void Renderer::State::run(std::promise<void> ready)
         ProgramCache programs;
         const GpuScene gpu_scene(scene);
         description = describe(*context, scene, gpu_scene);
-        const double radius = description.bounds.empty() ? 1 : description.bounds.radius();
         const SharedScene shared{programs, {gpu_scene.textures(), gpu_scene.defines()},
-            scene.background, static_cast<float>(radius), description.software};
+            look_of(scene), description.software};
         view_memory = memory_for_views(options, description.software);
         description.default_extent =
             options.extent ? *options.extent : start_extent(shared, scene.camera, options.settings);

@@ -32,6 +32,8 @@ enum class DebugView : std::uint8_t {
     kRawRadiance,
     kDirect,
     kIndirect,
+    kSpecular,
+    kScattered,
     kAlbedo,
     kEmission,
     kDepth,
@@ -50,8 +52,9 @@ enum class DebugView : std::uint8_t {
 constexpr std::string_view kDenoiserNames[] = {"none", "accumulate", "svgf"};
 constexpr std::string_view kTonemapNames[] = {"aces", "linear"};
 constexpr std::string_view kDebugViewNames[] = {"final", "sheet", "raw_radiance", "direct",
-    "indirect", "albedo", "emission", "depth", "depth_gradient", "position", "geometric_normal",
-    "shading_normal", "object_id", "material_id", "motion", "variance", "history_length"};
+    "indirect", "specular", "scattered", "albedo", "emission", "depth", "depth_gradient",
+    "position", "geometric_normal", "shading_normal", "object_id", "material_id", "motion",
+    "variance", "history_length"};
 
 struct RenderSettings {
     Denoiser denoiser = Denoiser::kSvgf;
@@ -59,6 +62,7 @@ struct RenderSettings {
     int max_depth = 4;
     int roulette_depth = 3;
     bool light_sampling = true;
+    bool antialiasing = true;
     std::uint32_t seed = 0;
 
     int history_max = 32;
@@ -96,6 +100,8 @@ struct RenderSettings {
             "[segments] Russian roulette may end a path after this many");
         visit(s.light_sampling, "light_sampling", IntRange{0, 1},
             "sample the lights at every hit and combine by MIS; 0 leaves light to chance hits");
+        visit(s.antialiasing, "antialiasing", IntRange{0, 1},
+            "where samples are averaged, spread them over the pixel's area");
         visit(s.seed, "seed", IntRange{0, std::numeric_limits<std::uint32_t>::max()},
             "same seed, same picture");
         visit(s.history_max, "history_max", IntRange{1, 4096},

@@ -12,6 +12,24 @@ template <typename T> std::span<const std::byte> object_bytes(const T& object)
     return std::as_bytes(std::span<const T, 1>(&object, 1));
 }
 
+/// The digits of n in base `base` mirrored at the point, in [0, 1).
+/// Source: Halton 1960, "On the efficiency of certain quasi-random sequences of points".
+float radical_inverse(int n, int base)
+{
+    double value = 0;
+    for (double digit = 1.0 / base; n > 0; n /= base, digit /= base)
+        value += digit * (n % base);
+    return static_cast<float>(value);
+}
+
+/// Where in its pixel frame `index` of a mean looks [px from the middle]: first the middle itself,
+/// then evenly all over it.
+glm::vec2 jitter_of(int index)
+{
+    const glm::vec2 point(radical_inverse(index, 2), radical_inverse(index, 3));
+    return glm::fract(point + 0.5F) - 0.5F;
+}
+
 }  // namespace
 
 View::View(const SharedScene& scene)
@@ -27,7 +45,7 @@ void View::follow(const RenderRequest& request)
 {
     const RenderSettings& s = request.settings;
     const SampleKey key{request.camera, request.extent, s.samples_per_pixel, s.max_depth,
-        s.roulette_depth, s.light_sampling, s.seed};
+        s.roulette_depth, s.light_sampling, s.antialiasing, s.seed};
     if (request.reset_history || request.extent != key_.extent)
         has_history_ = false;
     if (!has_history_)
@@ -45,12 +63,27 @@ void View::upload_constants(const RenderRequest& request)
     constants.camera = camera_constants(request.camera, request.extent);
     constants.prev_camera =
         has_history_ ? camera_constants(prev_camera_, request.extent) : constants.camera;
-    constants.background = scene_.background;
+    constants.background = scene_.look.background;
     constants.first_sample = samples_;
     constants.extent = {request.extent.width, request.extent.height};
     constants.seed = request.settings.seed;
     constants_.update(object_bytes(constants));
     counters_.update(object_bytes(std::uint32_t{0}));
+}
+
+/// What the scene and the camera's optics give to the stages of this frame.
+FrameInputs View::inputs_of(const RenderRequest& request) const
+{
+    FrameInputs inputs{scene_.inputs, scene_.look.fog};
+    const Lens& lens = scene_.look.lens;
+    const double target = glm::length(request.camera.target - request.camera.position);
+    const double focus = lens.focus_distance > 0 ? lens.focus_distance : target;
+    inputs.lens_radius = static_cast<float>(lens.radius);
+    inputs.focus_distance = focus > 0 ? static_cast<float>(focus) : 1.0F;
+    inputs.antialiasing = request.settings.antialiasing;
+    if (inputs.antialiasing && mean_frames_ > 0)
+        inputs.pixel_jitter = jitter_of(mean_frames_ - 1);
+    return inputs;
 }
 
 void View::begin(const RenderRequest& request)
@@ -64,11 +97,13 @@ void View::begin(const RenderRequest& request)
     plan.settings = request.settings;
     plan.mean_frames = std::max(mean_frames_, 1);
     plan.refine = request.refine;
-    plan.scene_radius = scene_.radius;
+    plan.scene_radius = scene_.look.radius;
+    plan.scatters = scene_.look.scatters;
     plan.linear_output = request.format == PixelFormat::kRgb32f;
     graph_.begin_frame(
         request.extent, {{"frame_block", constants_.id()}, {"counter_block", counters_.id()}});
-    const TextureHandle result = build_frame(graph_, scene_.inputs, plan);
+    const FrameInputs inputs = inputs_of(request);
+    const TextureHandle result = build_frame(graph_, inputs, plan);
     graph_.keep(result);
     graph_.execute();
     readback_.begin(graph_.texture(result));
@@ -90,11 +125,10 @@ RenderedFrame View::finish()
     frame_.image = readback_.finish();
     glGetNamedBufferSubData(
         counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
-    bool traced = false;
     for (const TimedPass& pass : graph_.collect_times()) {
+        const bool traces = pass.name == "gbuffer" || pass.name == "path_trace";
         frame_.pass_times.push_back({pass.name, pass.milliseconds});
-        (traced ? frame_.denoise_ms : frame_.trace_ms) += pass.milliseconds;
-        traced = traced || pass.name == "path_trace";
+        (traces ? frame_.trace_ms : frame_.denoise_ms) += pass.milliseconds;
     }
     return std::move(frame_);
 }

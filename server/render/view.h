@@ -7,6 +7,7 @@
 #include "server/render/frame_graph.h"
 #include "server/render/readback.h"
 #include "server/render/renderer.h"
+#include "server/render/scene_look.h"
 #include "server/scene/gpu_scene.h"
 
 namespace farlight {
@@ -15,8 +16,7 @@ namespace farlight {
 struct SharedScene {
     ProgramCache& programs;
     SceneInputs inputs;
-    glm::vec3 background{0};
-    float radius = 1;  ///< [m]
+    SceneLook look;
     bool software = false;
     bool strict = false;  ///< See FrameGraph.
 };
@@ -52,6 +52,7 @@ private:
         int max_depth = 0;
         int roulette_depth = 0;
         bool light_sampling = false;
+        bool antialiasing = false;
         std::uint32_t seed = 0;
 
         bool operator==(const SampleKey&) const = default;
@@ -59,6 +60,7 @@ private:
 
     void follow(const RenderRequest& request);
     void upload_constants(const RenderRequest& request);
+    FrameInputs inputs_of(const RenderRequest& request) const;
 
     const SharedScene& scene_;
     FrameGraph graph_;

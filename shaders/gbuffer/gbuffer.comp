@@ -1,26 +1,42 @@
-// G-buffer: what the ray through each pixel's middle meets first.
+// G-buffer: what the ray through each pixel meets first.
 //
-//   out  out_surface   rgba32ui  view depth [m] and its change per pixel along x and y, as float bits; shading normal
+//   out  out_hit       rgba32ui  the hit (geometry/hit_texel.glsl)
+//        out_surface   rgba32ui  view depth [m] and its change per pixel along x and y, as float bits; shading normal
 //                                (octahedral). Depth 0 marks a miss.
 //        out_identity  rgba32ui  object id, material id, geometric normal (octahedral), 1 on a hit
-//        out_position  rgba32f   world position [m]; offset for rays that leave it [m]
-//        out_albedo    rgba32f   reflectance
-//        out_emission  rgba32f   radiance that bypasses the filter: emitters seen directly, background
+//        out_position  rgba32f   world position [m]
+//        out_albedo    rgba32f   diffuse reflectance
+//        out_emission  rgba32f   radiance that bypasses the filter: emitters seen directly, what is unlit, environment
 //        out_motion    rgba32f   where the surface was: previous minus current pixel (xy) [px], previous minus
 //                                current view depth (z) [m], 1 if it was ahead of the previous camera (w)
+//        out_reflectance  rgba32f  what the specular signal is divided by; GGX alpha, negative: nothing specular
+//        out_fog_way      r32f     way through fog before the surface [m]
 #version 450
-#include "lib/frame.glsl"
-#include "geometry/surface.glsl"
-#include "lights/lights.glsl"
+#include "lib/primary_ray.glsl"
+#include "geometry/hit_texel.glsl"
+#include "gbuffer/first_surface.glsl"
+#ifdef FX_SPECULAR_SIGNAL
+#include "gbuffer/reflectance.glsl"
+#endif
+#ifdef FX_FOG
+#include "media/scene_fog.glsl"
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+uniform writeonly uimage2D out_hit;
 uniform writeonly uimage2D out_surface;
 uniform writeonly uimage2D out_identity;
 uniform writeonly image2D out_position;
 uniform writeonly image2D out_albedo;
 uniform writeonly image2D out_emission;
 uniform writeonly image2D out_motion;
+#ifdef FX_SPECULAR_SIGNAL
+uniform writeonly image2D out_reflectance;
+#endif
+#ifdef FX_FOG
+uniform writeonly image2D out_fog_way;
+#endif
 
 // View depth and its screen derivatives: the tangent plane's depth at pixel p is n.(X - C) / n.d(p).
 vec3 depth_and_gradient(vec3 direction, vec3 position, vec3 normal)
@@ -48,19 +64,27 @@ void main()
     const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
     if (!inside_frame(px))
         return;
-    const vec3 direction = camera_direction(frame.camera, vec2(px) + 0.5);
-    const Ray ray = Ray(frame.camera.position, normalize(direction));
+    const PrimaryRay primary = primary_ray(px);
+    const Ray ray = ray_of(primary);
     const Hit hit = closest_hit(ray, T_INFINITY);
-    const Surface s = surface_at(hit, ray);
-    const Material material = load_material(s.material);
-    const vec3 depth = depth_and_gradient(direction, s.position, s.geometric_normal);
-
     const bool met = hit.slot != NO_HIT;
-    imageStore(out_surface, px, met ? uvec4(floatBitsToUint(depth), pack_octahedral(s.shading_normal)) : uvec4(0u));
+    const Surface s = surface_at(hit, ray);
+    const ShadedMaterial m = first_material(s, ray);
+    const vec3 depth = depth_and_gradient(primary.direction, s.position, s.geometric_normal);
+
+    imageStore(out_hit, px, pack_hit(hit));
+    imageStore(out_surface, px, met ? uvec4(floatBitsToUint(depth), pack_octahedral(m.shading_normal)) : uvec4(0u));
     imageStore(out_identity, px,
         met ? uvec4(s.object, s.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
-    imageStore(out_position, px, met ? vec4(s.position, s.offset) : vec4(0.0));
-    imageStore(out_albedo, px, met ? vec4(material.albedo, 1.0) : vec4(0.0));
-    imageStore(out_emission, px, vec4(met ? emitted(material, s.front) : environment_radiance(ray.direction), 1.0));
+    imageStore(out_position, px, met ? vec4(s.position, 0.0) : vec4(0.0));
+    imageStore(out_albedo, px, met ? vec4(diffuse_albedo(m, s, ray), 1.0) : vec4(0.0));
+    imageStore(out_emission, px, vec4(met ? m.emission : environment_radiance(ray.direction), 1.0));
     imageStore(out_motion, px, met ? motion_of(s.position, s.prev_position) : vec4(0.0));
+#ifdef FX_SPECULAR_SIGNAL
+    imageStore(out_reflectance, px, met ? reflectance(m, -ray.direction) : vec4(0.0, 0.0, 0.0, -1.0));
+#endif
+#ifdef FX_FOG
+    const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, met ? length(s.position - ray.origin) : T_INFINITY);
+    imageStore(out_fog_way, px, vec4(span.y - span.x));
+#endif
 }

@@ -5,8 +5,14 @@
 
 // What a number decides. Four numbers a slot.
 const uint SLOT_LIGHT = 0u;  // which light, where on it
-const uint SLOT_BSDF = 1u;   // direction (xy), Russian roulette (z)
+const uint SLOT_BSDF = 1u;   // direction (xy), Russian roulette (z), lobe (w)
+const uint SLOT_LENS = 2u;   // point on the aperture (xy)
+const uint SLOT_FOG = 3u;    // distance (xy)
+const uint SLOT_TEXTURE = 4u;  // texel (xyz)
 const uint SLOTS = 8u;
+
+// Bounces of a path that starts in the fog before the first surface count from here, above any path's from there.
+const uint FOG_PATH_BOUNCE = 64u;
 
 uvec4 pcg4d(uvec4 v)
 {

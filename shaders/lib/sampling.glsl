@@ -11,6 +11,13 @@ vec3 sample_cosine_hemisphere(vec2 u)
     return vec3(r * cos(phi), r * sin(phi), sqrt(max(0.0, 1.0 - u.x)));
 }
 
+// Uniform over the unit disk.
+vec2 sample_disk(vec2 u)
+{
+    const float phi = 2.0 * PI * u.y;
+    return sqrt(u.x) * vec2(cos(phi), sin(phi));
+}
+
 // Uniform directions within the cone around z whose opening is given by 1 - cos(theta_max).
 vec3 sample_cone(vec2 u, float one_minus_cos_max)
 {

@@ -1,124 +1,158 @@
-// Path tracing from the G-buffer's surface: direct and indirect diffuse light as separate signals.
+// Path tracing from the G-buffer's hit: what arrives at the first surface, split into signals by the lobe that turns it
+// towards the eye.
 //
-//   in   in_surface    rgba32ui  depth (0: miss), gradients, shading normal
-//        in_identity   rgba32ui  ids, geometric normal
-//        in_position   rgba32f   world position, offset
-//   out  out_direct    rgba32f   radiance that met one surface between light and pixel, without that surface's albedo
-//        out_indirect  rgba32f   radiance that met more, likewise demodulated by the first surface's albedo
+//   in   in_hit          rgba32ui  the primary hit (geometry/hit_texel.glsl)
+//        in_reflectance  rgba32f   what the specular signal is divided by
+//   out  out_direct      rgba32f   diffuse light that met one surface between light and pixel, without its albedo
+//        out_indirect    rgba32f   diffuse light that met more, likewise without the first surface's albedo
+//        out_specular    rgba32f   light by the first surface's specular lobes, divided by its reflectance;
+//                                  a: mean distance of what they show [m], 0: unknown
+//        out_scattered   rgba32f   light that the fog before the first surface scatters to the eye
 //
-// Each vertex samples a light and a direction of the BSDF and combines both by multiple importance sampling.
-// Source: Veach 1997, chapters 8 to 10; Kajiya 1986, "The Rendering Equation".
+// Each vertex samples a light and a direction of its BSDF or phase function and combines both by multiple importance
+// sampling. Source: Veach 1997, chapters 8 to 10; Kajiya 1986, "The Rendering Equation".
 #version 450
-#include "lib/frame.glsl"
-#include "lib/random.glsl"
-#include "geometry/surface.glsl"
-#include "lights/lights.glsl"
-#include "bsdf/diffuse.glsl"
+#include "lib/primary_ray.glsl"
+#include "geometry/hit_texel.glsl"
+#include "path_trace/direct.glsl"
 #include "lib/counters.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-uniform usampler2D in_surface;
-uniform usampler2D in_identity;
-uniform sampler2D in_position;
+uniform usampler2D in_hit;
 uniform writeonly image2D out_direct;
 uniform writeonly image2D out_indirect;
+#ifdef FX_SPECULAR_SIGNAL
+uniform sampler2D in_reflectance;
+uniform writeonly image2D out_specular;
+#endif
+#ifdef FX_FOG
+uniform writeonly image2D out_scattered;
+#endif
 
 uniform int samples_per_pixel;
 uniform int max_depth;       // segments from the camera, >= 1
 uniform int roulette_depth;  // segments after which a path may be ended by chance
-#ifdef FX_LIGHTS
-uniform int light_sampling;  // 0: light is met by chance only
-#endif
 
-struct Vertex {
-    vec3 position;
-    float offset;
-    vec3 geometric_normal;
-    vec3 shading_normal;
+// What one path brings back to its first vertex.
+struct Gathered {
+    vec3 direct;
+    vec3 indirect;
+#ifdef FX_SPECULAR_SIGNAL
+    vec3 specular;
+    float distance;  // of what the specular lobes show, beyond mirrors in between too [m]; 0: not seen
+#endif
 };
 
-#ifdef FX_LIGHTS
-// Incident radiance of one light sample times cosine over pi, divided by its density and weighted against the
-// chance that the BSDF sample finds the same light.
-vec3 sample_direct(Vertex v, vec4 u)
+Gathered nothing_gathered()
 {
-    const LightSample s = sample_lights(v.position, v.shading_normal, u);
-    const float cos_surface = dot(v.shading_normal, s.wi);
-    const bool above = dot(v.geometric_normal, s.wi) > 0.0;
-    const float pdf_bsdf = diffuse_pdf(cos_surface);
-    const bool useful = s.pdf > 0.0 && pdf_bsdf > 0.0 && above && max_component(s.radiance) > 0.0;
-    // Both ends are offset off their surfaces, each by its own rounding error, and the ray runs between them.
-    const vec3 from = offset_origin(v.position, v.geometric_normal, v.offset, s.wi);
-    const vec3 to = s.infinite ? from + s.wi : offset_origin(s.position, s.normal, s.offset, -s.wi);
-    const vec3 way = to - from;
-    const float distance = length(way);
-    const bool ahead = dot(way, s.wi) > 0.0;
-    const float t_max = s.infinite ? T_INFINITY : distance;
-    const bool blocked = any_hit(Ray(from, way / distance), useful && ahead ? t_max : 0.0);
-    const float weight = s.delta ? 1.0 : power_heuristic(s.pdf, pdf_bsdf);
-    return useful && !blocked ? s.radiance * (pdf_bsdf / s.pdf * weight) : vec3(0.0);
-}
+    Gathered g;
+    g.direct = g.indirect = vec3(0.0);
+#ifdef FX_SPECULAR_SIGNAL
+    g.specular = vec3(0.0);
+    g.distance = 0.0;
 #endif
-
-// Radiance met by a BSDF sample, weighted against light sampling.
-vec3 weighted_emission(Vertex v, Material material, Surface s, float pdf_bsdf)
-{
-    const vec3 radiance = emitted(material, s.front);
-#ifdef FX_LIGHTS
-    const float pdf_light = light_pdf(
-        max(s.light, 1u) - 1u, v.position, v.shading_normal, s.position, s.geometric_normal);
-    if (light_sampling != 0 && s.light != 0u)
-        return radiance * power_heuristic(pdf_bsdf, pdf_light);
-#endif
-    return radiance;
+    return g;
 }
 
-// One path; adds to the two signals.
-void trace_path(Vertex v, uvec2 px, uint sample_index, inout vec3 direct, inout vec3 indirect)
+// A path from its first vertex on. `first_bounce` sets its random numbers apart from other paths of the sample;
+// `cone` is the width of the pixel's cone there [m] and what it grows by a metre.
+Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, vec2 cone)
 {
-    precise vec3 throughput = vec3(1.0);  // of all surfaces but the first
+    Gathered sum = nothing_gathered();
+    precise vec3 throughput = vec3(1.0);  // of all vertices but the first
+    vec3 first_diffuse = vec3(0.0);       // of the first, which splits what comes after into signals
+#ifdef FX_SPECULAR_SIGNAL
+    vec3 first_specular = vec3(0.0);
+    float distance = 0.0;
+    bool follows_mirrors = true;
+#endif
     int segment = 2;
     bool alive = segment <= max_depth;
     do {
-        const uint bounce = uint(segment) - 2u;
-        vec3 gathered = vec3(0.0);
+        const uint bounce_index = first_bounce + uint(segment) - 2u;
+        const bool first = segment == 2;
+        Scattered light = Scattered(vec3(0.0), vec3(0.0), 0.0);
 #ifdef FX_LIGHTS
         if (light_sampling != 0)
-            gathered = sample_direct(v, random4(px, frame.seed, sample_index, bounce, SLOT_LIGHT));
+            light = sample_direct(v, random4(px, frame.seed, sample_index, bounce_index, SLOT_LIGHT));
 #endif
-        const vec4 u = random4(px, frame.seed, sample_index, bounce, SLOT_BSDF);
-        const vec3 local = sample_cosine_hemisphere(u.xy);
-        const vec3 wi = normalize(basis_around(v.shading_normal) * local);
-        const bool leaves = alive && dot(v.geometric_normal, wi) > 0.0;
-        const Ray ray = Ray(offset_origin(v.position, v.geometric_normal, v.offset, wi), wi);
-        const Hit hit = closest_hit(ray, leaves ? T_INFINITY : 0.0);
+        const vec4 u = random4(px, frame.seed, sample_index, bounce_index, SLOT_BSDF);
+        const Bounce bounce = sample_bounce(v, u);
+        const vec3 weight = bounce.weight.diffuse + bounce.weight.specular;
+        precise vec3 next = throughput;  // with this vertex, unless it is the first
+        if (first) {
+            first_diffuse = bounce.weight.diffuse;
+            if (alive)
+                sum.direct += light.diffuse;
+#ifdef FX_SPECULAR_SIGNAL
+            first_specular = bounce.weight.specular;
+            if (alive)
+                sum.specular += light.specular;
+#endif
+        } else {
+            const vec3 arriving = throughput * (light.diffuse + light.specular);
+            if (alive)
+                sum.indirect += first_diffuse * arriving;
+#ifdef FX_SPECULAR_SIGNAL
+            if (alive)
+                sum.specular += first_specular * arriving;
+#endif
+            next = throughput * weight;
+        }
+        const float survive = clamp(max_component(next), 0.05, 1.0);
+        if (segment > roulette_depth) {
+            alive = alive && u.z < survive;
+            next /= survive;
+        }
+        throughput = next;
+
+        alive = alive && max_component(weight) > 0.0 && max_component(throughput) > 0.0;
+        const Ray ray = Ray(leave(v, bounce.wi), bounce.wi);
+        const Hit hit = closest_hit(ray, alive ? T_INFINITY : 0.0);
         const bool met = hit.slot != NO_HIT;
         const Surface s = surface_at(hit, ray);
-        const Material material = load_material(s.material);
-        if (met)
-            gathered += weighted_emission(v, material, s, diffuse_pdf(local.z));
-#ifdef FX_BACKGROUND
-        else if (leaves)
-            gathered += environment_radiance(wi);
+        const float way = length(s.position - ray.origin);
+        cone.y += 0.25 * bounce.roughness;  // a quarter of what the lobe covers is filtered, the rest is sampled
+        cone.x += cone.y * way;
+        const ShadedMaterial m = material_at(s, -ray.direction,
+            TextureLookup(log2_cone_width(cone.x, s.geometric_normal, ray.direction), true,
+                random4(px, frame.seed, sample_index, bounce_index, SLOT_TEXTURE).xyz));
+        vec3 found = met ? met_emission(v, bounce, s, m) : met_environment(bounce);
+        Vertex there = surface_vertex(s, m, -ray.direction, 1.0);
+        bool goes_on = met && scatters(m);
+#ifdef FX_FOG
+        if (fog_present()) {
+            const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, met ? way : T_INFINITY);
+            const FogEvent event
+                = sample_fog(scene_fog(), span.y - span.x, random4(px, frame.seed, sample_index, bounce_index, SLOT_FOG).xy);
+            throughput *= event.weight;
+            if (event.scattered) {
+                there = fog_vertex(there, ray, span.x + event.way);
+                found = vec3(0.0);
+                goes_on = true;
+            }
+        }
 #endif
         if (alive) {
-            if (segment == 2)
-                direct += gathered;
+            const vec3 arriving = throughput * found;
+            if (first)
+                sum.direct += first_diffuse * arriving;
             else
-                indirect += throughput * gathered;
+                sum.indirect += first_diffuse * arriving;
+#ifdef FX_SPECULAR_SIGNAL
+            sum.specular += first_specular * arriving;
+            distance += met ? way : T_INFINITY;
+            follows_mirrors = follows_mirrors && bounce.delta;
+            if (first || follows_mirrors)
+                sum.distance = max_component(first_specular) > 0.0 ? distance : 0.0;
+#endif
         }
-
-        throughput *= material.albedo;
-        const float survive = clamp(max_component(throughput), 0.05, 1.0);
-        if (segment >= roulette_depth) {
-            alive = alive && u.z < survive;
-            throughput /= survive;
-        }
-        v = Vertex(s.position, s.offset, s.geometric_normal, s.shading_normal);
+        v = there;
         ++segment;
-        alive = alive && met && segment <= max_depth && max_component(throughput) > 0.0;
+        alive = alive && goes_on && segment <= max_depth;
     } while (alive);
+    return sum;
 }
 
 void main()
@@ -126,20 +160,77 @@ void main()
     const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
     if (!inside_frame(px))
         return;
-    const uvec4 surface = texelFetch(in_surface, px, 0);
-    const vec4 position = texelFetch(in_position, px, 0);
-    const Vertex first = Vertex(position.xyz, position.w, unpack_octahedral(texelFetch(in_identity, px, 0).z),
-        unpack_octahedral(surface.w));
-    vec3 direct = vec3(0.0);
-    vec3 indirect = vec3(0.0);
-    const bool met = uintBitsToFloat(surface.x) > 0.0;
-    int i = met && max_depth > 1 ? 0 : samples_per_pixel;
-    while (i < samples_per_pixel) {
-        const uint sample_index = frame.first_sample + uint(i);
-        trace_path(first, uvec2(px), sample_index, direct, indirect);
+    const Hit hit = unpack_hit(texelFetch(in_hit, px, 0));
+    const bool met = hit.slot != NO_HIT;
+    const Ray ray = ray_of(primary_ray(px));
+    const Surface s = surface_at(hit, ray);
+    const ShadedMaterial m = first_material(s, ray);
+    const float way = length(s.position - ray.origin);
+    Vertex first = surface_vertex(s, m, -ray.direction, 1.0);
+    first.bsdf.albedo = vec3(1.0);  // the composite multiplies it back
+    const float footprint = frame.camera.pixel_footprint;
+
+    Gathered sum = nothing_gathered();
+    const bool lit = met && scatters(m) && max_depth > 1;
+    int paths = lit ? samples_per_pixel : 0;
+#ifdef FX_FOG
+    // Two paths a sample, one from the surface and one from the fog before it; what the fog lacks is skipped.
+    vec3 scattered = vec3(0.0);
+    const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, met ? way : T_INFINITY);
+    const bool foggy = fog_present() && span.y > span.x && max_depth > 1;
+    const int surface_paths = paths;
+    paths += foggy ? samples_per_pixel : 0;
+#endif
+#ifdef FX_SPECULAR_SIGNAL
+    float distance_sum = 0.0;
+    float distance_count = 0.0;
+#endif
+    int i = 0;
+    while (i < paths) {
+        uint sample_index = frame.first_sample + uint(i);
+        uint first_bounce = 0u;
+        Vertex start = first;
+        vec2 cone = vec2(footprint * way, footprint);
+#ifdef FX_FOG
+        const bool from_fog = i >= surface_paths;
+        FogEvent event;
+        if (from_fog) {
+            sample_index = frame.first_sample + uint(i - surface_paths);
+            first_bounce = FOG_PATH_BOUNCE;
+            event = sample_fog_within(scene_fog(),
+                span.y - span.x, random4(uvec2(px), frame.seed, sample_index, first_bounce - 1u, SLOT_FOG).xy);
+            start = fog_vertex(first, ray, span.x + event.way);
+            cone.x = footprint * (span.x + event.way);
+        }
+#endif
+        const Gathered g = trace_path(start, uvec2(px), sample_index, first_bounce, cone);
+#ifdef FX_FOG
+        if (from_fog) {
+            scattered += event.weight * (g.direct + g.indirect);
+            ++i;
+            continue;
+        }
+#endif
+        sum.direct += g.direct;
+        sum.indirect += g.indirect;
+#ifdef FX_SPECULAR_SIGNAL
+        sum.specular += g.specular;
+        distance_sum += g.distance;
+        distance_count += g.distance > 0.0 ? 1.0 : 0.0;
+#endif
         ++i;
     }
     const float weight = 1.0 / float(samples_per_pixel);
-    imageStore(out_direct, px, vec4(counted_finite(direct * weight), 0.0));
-    imageStore(out_indirect, px, vec4(counted_finite(indirect * weight), 0.0));
+    imageStore(out_direct, px, vec4(counted_finite(sum.direct * weight), 0.0));
+    imageStore(out_indirect, px, vec4(counted_finite(sum.indirect * weight), 0.0));
+#ifdef FX_SPECULAR_SIGNAL
+    const vec4 reflectance = texelFetch(in_reflectance, px, 0);
+    const vec3 specular = reflectance.a >= 0.0 ? sum.specular * weight / reflectance.rgb : vec3(0.0);
+    // Beyond ten thousand times the view distance nothing shifts any more.
+    const float distance = distance_count > 0.0 ? min(distance_sum / distance_count, 1e4 * way) : 0.0;
+    imageStore(out_specular, px, vec4(counted_finite(specular), distance));
+#endif
+#ifdef FX_FOG
+    imageStore(out_scattered, px, vec4(counted_finite(scattered * weight), 0.0));
+#endif
 }

@@ -16,9 +16,7 @@ Scene without_neutral(Scene scene)
 
 SharedScene share(ProgramCache& programs, const GpuScene& gpu_scene, const Scene& scene)
 {
-    const Bounds bounds = scene_bounds(scene);
-    return {programs, {gpu_scene.textures(), gpu_scene.defines()}, scene.background,
-        bounds.empty() ? 1.0F : static_cast<float>(bounds.radius()), true, true};
+    return {programs, {gpu_scene.textures(), gpu_scene.defines()}, look_of(scene), true, true};
 }
 
 }  // namespace

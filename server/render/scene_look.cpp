@@ -1,0 +1,61 @@
+// What of a scene shows at a glance.
+#include "server/render/scene_look.h"
+
+#include <algorithm>
+
+namespace farlight {
+namespace {
+
+bool is_black(const glm::vec3& color)
+{
+    return !(color.x > 0 || color.y > 0 || color.z > 0);
+}
+
+bool reflects(const Material& m)
+{
+    return !m.unlit && (!is_black(m.albedo) || m.specular > 0 || m.clearcoat > 0);
+}
+
+bool any_light(const Scene& scene)
+{
+    const auto drawn = [&](auto&& wanted) {
+        return std::any_of(scene.objects.begin(), scene.objects.end(),
+            [&](const Object& object) { return wanted(scene.materials[object.material]); });
+    };
+    return !is_black(scene.background)
+        || drawn([](const Material& m) { return m.unlit || !is_black(m.emission); })
+        || std::any_of(scene.lights.begin(), scene.lights.end(),
+            [](const PunctualLight& light) { return !is_black(light.intensity); });
+}
+
+bool any_scatterer(const Scene& scene)
+{
+    return !is_black(scene.medium.sigma_s)
+        || std::any_of(scene.objects.begin(), scene.objects.end(),
+            [&](const Object& object) { return reflects(scene.materials[object.material]); });
+}
+
+// Fog ends somewhere, or no light from outside would ever arrive; four radii of the scene hold
+// whatever a camera that frames it sees of it, and the camera.
+constexpr double kFogRadii = 4;
+
+}  // namespace
+
+SceneLook look_of(const Scene& scene)
+{
+    SceneLook look;
+    const Bounds bounds = scene_bounds(scene);
+    const double radius = bounds.empty() ? 1 : bounds.radius();
+    look.background = scene.background;
+    look.radius = static_cast<float>(radius);
+    look.lens = scene.lens;
+    look.fog.sigma_t = scene.medium.sigma_a + scene.medium.sigma_s;
+    look.fog.sigma_s = scene.medium.sigma_s;
+    look.fog.g = scene.medium.g;
+    look.fog.center = bounds.empty() ? glm::vec3(0) : glm::vec3(bounds.center());
+    look.fog.radius = static_cast<float>(kFogRadii * radius);
+    look.scatters = any_light(scene) && any_scatterer(scene);
+    return look;
+}
+
+}  // namespace farlight

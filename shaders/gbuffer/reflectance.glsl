@@ -1,0 +1,45 @@
+// What the specular signal is divided by before the filter and multiplied with after it: how much the specular lobes
+// reflect and transmit, roughly, so that textures of metals stay out of the filter. It need not be exact, only smooth
+// and never zero.
+//
+// Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", for the angle.
+#pragma once
+#include "materials/shaded_material.glsl"
+#include "lib/numbers.glsl"
+
+// Below this division would make more noise than the texture it takes out.
+const float LEAST_REFLECTANCE = 0.02;
+
+vec3 schlick(vec3 f0, float cosine)
+{
+    const float x = 1.0 - clamp(cosine, 0.0, 1.0);
+    const float x2 = x * x;
+    return f0 + (1.0 - f0) * (x2 * x2 * x);
+}
+
+// rgb; GGX alpha, negative where nothing is specular. `wo` as in material_at().
+vec4 reflectance(ShadedMaterial m, vec3 wo)
+{
+    const float cosine = dot(m.shading_normal, wo);
+    vec3 base = vec3(0.0);
+    float alpha = 1.0;
+    float coat = 0.0;
+    float coat_alpha = 1.0;
+#if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+    const float root = (m.ior - 1.0) / (m.ior + 1.0);
+    const vec3 f0 = min(root * root * m.specular_color, vec3(1.0));
+    base = mix(m.specular * schlick(f0, cosine), schlick(m.albedo, cosine), m.metallic);
+    alpha = m.roughness * m.roughness;
+#endif
+#if defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+    base += (1.0 - m.metallic) * m.transmission * m.albedo;
+#endif
+#ifdef FX_CLEARCOAT
+    coat = m.clearcoat * schlick(vec3(0.04), cosine).x;
+    coat_alpha = m.clearcoat_roughness * m.clearcoat_roughness;
+#endif
+    const float part_of_coat = coat / max(coat + max_component(base), LEAST_REFLECTANCE);
+    const bool specular = max_component(base) + coat > 0.0;
+    return specular ? vec4(max(base + coat, vec3(LEAST_REFLECTANCE)), mix(alpha, coat_alpha, part_of_coat))
+                    : vec4(0.0, 0.0, 0.0, -1.0);
+}
