@@ -8,8 +8,6 @@
 namespace farlight {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
-
 /// The accumulated mean of `frames` frames of `settings`.
 Image accumulate(const TestScene& scene, RenderRequest request, int frames)
 {
@@ -102,82 +100,6 @@ TEST_P(FurnaceTest, RussianRouletteIsUnbiased)
 INSTANTIATE_TEST_SUITE_P(AnalyticScenes, FurnaceTest,
     testing::Values(FurnaceCase{"EmitterOnly", 0.5F, 1}, FurnaceCase{"OneBounce", 0.5F, 2},
         FurnaceCase{"ThreeBounces", 0.5F, 4}, FurnaceCase{"Deep", 0.8F, 9}),
-    [](const auto& test) { return test.param.name; });
-
-// A small white plane at the origin facing +y, under one light, seen from the side at one point.
-// Its radiance is albedo / pi * E, with E in closed form.
-struct IrradianceCase {
-    const char* name;
-    double expected;  ///< E [W/m^2] for a light of radiance 1.
-    Object light;
-    int samples;
-
-    friend void PrintTo(const IrradianceCase& c, std::ostream* out) { *out << c.name; }
-};
-
-Quad unit_quad_above(double height, const glm::dvec3& offset)
-{
-    return {glm::dvec3(-0.5, height, -0.5) + offset, {1, 0, 0},
-        {0, 0, 1}};  // faces down: x cross z = -y
-}
-
-Sphere sphere_at_angle(double distance, double radius, double angle)
-{
-    return {distance * glm::dvec3(std::sin(angle), std::cos(angle), 0), radius};
-}
-
-class IrradianceTest : public GlTest, public testing::WithParamInterface<IrradianceCase> {
-protected:
-    /// The camera sees only a piece of the plane so small that E is the same all over it.
-    static Scene scene()
-    {
-        Scene scene;
-        scene.materials.push_back({"plane", glm::vec3(0.5F)});
-        scene.materials.push_back({"light", glm::vec3(0), glm::vec3(1)});
-        scene.objects.push_back({"plane", 0, Quad{{-1e-3, 0, -1e-3}, {0, 0, 2e-3}, {2e-3, 0, 0}}});
-        scene.objects.push_back(GetParam().light);
-        scene.objects.back().material = 1;
-        scene.camera.position = {0.02, 0.02, -0.02};
-        scene.camera.target = {0, 0, 0};
-        scene.camera.vertical_fov_degrees = 0.5;
-        return scene;
-    }
-    static Estimate radiance(bool light_sampling)
-    {
-        const TestScene on_device(scene());
-        RenderSettings s;
-        s.max_depth = 2;
-        s.light_sampling = light_sampling;
-        s.samples_per_pixel = GetParam().samples;
-        return mean_of(accumulate(on_device, linear_request(on_device.scene, {32, 32}, s), 8));
-    }
-};
-
-TEST_P(IrradianceTest, LightAndBsdfSamplingGiveTheClosedForm)
-{
-    const double expected = 0.5 / kPi * GetParam().expected;
-    for (const bool light_sampling : {true, false}) {
-        const Estimate estimate = radiance(light_sampling);
-        // 2e-4: E changes by about that much over the piece of plane that is seen.
-        EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 2e-4 * expected)
-            << (light_sampling ? "with" : "without") << " light sampling";
-    }
-}
-
-// Quads: Lambert 1760, E = 1/2 |sum theta_i (n . Gamma_i)|. Spheres: pi (r/d)^2 cos(theta) clear of
-// the horizon; cut by it: Snyder's closed form, recomputed by quadrature.
-INSTANTIATE_TEST_SUITE_P(AnalyticScenes, IrradianceTest,
-    testing::Values(IrradianceCase{"QuadAboveItsMiddle", 0.75227469,
-                        {"light", 0, unit_quad_above(1, {0, 0, 0})}, 64},
-        IrradianceCase{
-            "QuadAboveItsCorner", 0.43520988, {"light", 0, unit_quad_above(1, {0.5, 0, 0.5})}, 64},
-        IrradianceCase{"SphereOverhead", 0.785398, {"light", 0, sphere_at_angle(2, 1, 0)}, 64},
-        IrradianceCase{"SphereAside", 0.162054, {"light", 0, sphere_at_angle(2, 0.5, 0.6)}, 64},
-        IrradianceCase{
-            "SphereCutByTheHorizon", 0.289484, {"light", 0, sphere_at_angle(2, 1, 1.2)}, 64},
-        IrradianceCase{
-            "SphereMostlyBelow", 0.008259, {"light", 0, sphere_at_angle(3, 1, 1.7)}, 256},
-        IrradianceCase{"SphereVeryNear", 1.257843, {"light", 0, sphere_at_angle(1.2, 1, 1.0)}, 64}),
     [](const auto& test) { return test.param.name; });
 
 // A lamp two units above a floor: light sampling and chance must agree however large the floor is

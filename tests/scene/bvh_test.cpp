@@ -1,6 +1,5 @@
 // The packed tree's invariants. No device needed.
 #include "server/scene/bvh.h"
-#include "server/scene/packed_scene.h"
 #include "shaders/shared/scene_layout.h"
 
 #include <algorithm>

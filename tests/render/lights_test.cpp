@@ -1,0 +1,251 @@
+// Irradiance of lights in closed form, against the path tracer; and what must not change it.
+//
+// Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
+// which a fresh seed would exceed by chance once in 1.7 million.
+#include "tests/support/gl_test.h"
+#include "tests/support/statistics.h"
+
+#include <functional>
+#include <numbers>
+
+namespace farlight {
+namespace {
+
+using std::numbers::pi;
+
+Estimate mean_radiance(const TestScene& scene, const RenderSettings& settings, int frames)
+{
+    RenderRequest request = linear_request(scene.scene, {32, 32}, settings);
+    request.settings.denoiser = Denoiser::kAccumulate;
+    View view(scene.shared);
+    RenderedFrame frame;
+    for (int i = 0; i < frames; ++i)
+        frame = view.render(request);
+    EXPECT_EQ(frame.nonfinite_count, 0U);
+    return mean_of(frame.image);
+}
+
+constexpr double kHalfWidth = 1e-3;  // of the plane [m]
+
+/// A small plane of albedo 0.5 at the origin facing +y, seen from the side at one point. Its
+/// radiance is albedo / pi * E; the camera sees a piece so small that E is the same all over it.
+Scene plane_under(const std::function<void(Scene&)>& add_lights)
+{
+    Scene scene;
+    scene.materials = {{"plane", glm::vec3(0.5F)}, {"light", glm::vec3(0), glm::vec3(1)}};
+    scene.objects.push_back({"plane", 0,
+        Quad{{-kHalfWidth, 0, -kHalfWidth}, {0, 0, 2 * kHalfWidth}, {2 * kHalfWidth, 0, 0}}});
+    scene.camera.position = {0.02, 0.02, -0.02};
+    scene.camera.target = {0, 0, 0};
+    scene.camera.vertical_fov_degrees = 0.5;
+    add_lights(scene);
+    return scene;
+}
+
+void add_light(Scene& scene, const std::variant<Sphere, Quad, MeshInstance, Disk>& shape)
+{
+    scene.objects.push_back({"light", 1, shape});
+}
+
+/// Lights over the plane; those with an extent have radiance 1.
+struct IrradianceCase {
+    const char* name;
+    double expected;  ///< E [W/m^2].
+    std::function<void(Scene&)> add_lights;
+    bool chance_finds_it = true;  ///< It has an extent that a BSDF sample may hit.
+    int samples = 64;
+
+    friend void PrintTo(const IrradianceCase& c, std::ostream* out) { *out << c.name; }
+};
+
+class IrradianceTest : public GlTest, public testing::WithParamInterface<IrradianceCase> { };
+
+TEST_P(IrradianceTest, LightAndBsdfSamplingGiveTheClosedForm)
+{
+    const TestScene scene(plane_under(GetParam().add_lights));
+    const double expected = 0.5 / pi * GetParam().expected;
+    for (const bool light_sampling : {true, false}) {
+        if (!light_sampling && !GetParam().chance_finds_it)
+            continue;
+        RenderSettings s;
+        s.max_depth = 2;
+        s.light_sampling = light_sampling;
+        s.samples_per_pixel = GetParam().samples;
+        const Estimate estimate = mean_radiance(scene, s, 8);
+        // 2e-4: E changes by about that much over the piece of plane that is seen.
+        EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 2e-4 * expected)
+            << (light_sampling ? "with" : "without") << " light sampling";
+    }
+}
+
+std::function<void(Scene&)> shape(const std::variant<Sphere, Quad, MeshInstance, Disk>& shape)
+{
+    return [=](Scene& scene) { add_light(scene, shape); };
+}
+
+Quad unit_quad_above(double height, const glm::dvec3& offset)
+{
+    return {glm::dvec3(-0.5, height, -0.5) + offset, {1, 0, 0},
+        {0, 0, 1}};  // faces down: x cross z = -y
+}
+
+Sphere sphere_at_angle(double distance, double radius, double angle)
+{
+    return {distance * glm::dvec3(std::sin(angle), std::cos(angle), 0), radius};
+}
+
+/// The quad above its middle, in n x n parts.
+std::function<void(Scene&)> split_quad(int n)
+{
+    return [=](Scene& scene) {
+        const double side = 1.0 / n;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j)
+                add_light(
+                    scene, Quad{{-0.5 + i * side, 1, -0.5 + j * side}, {side, 0, 0}, {0, 0, side}});
+    };
+}
+
+/// The same as a mesh of 2 n^2 triangles.
+std::function<void(Scene&)> quad_mesh(unsigned n)
+{
+    return [=](Scene& scene) {
+        Mesh mesh{"grid", {}, {}, {}};
+        for (unsigned i = 0; i <= n; ++i)
+            for (unsigned j = 0; j <= n; ++j)
+                mesh.positions.emplace_back(static_cast<float>(i) / static_cast<float>(n) - 0.5F, 1,
+                    static_cast<float>(j) / static_cast<float>(n) - 0.5F);
+        for (unsigned i = 0; i < n; ++i)
+            for (unsigned j = 0; j < n; ++j) {
+                const unsigned at = i * (n + 1) + j;
+                mesh.triangles.emplace_back(at, at + n + 1, at + n + 2);
+                mesh.triangles.emplace_back(at, at + n + 2, at + 1);
+            }
+        scene.meshes.push_back(mesh);
+        add_light(scene, MeshInstance{});
+    };
+}
+
+/// The triangle (1, .2, 2), (-.5, 1, 1.5), (-.7, -.9, 2.5) over a plane whose normal is z, turned
+/// so that it is y, facing down.
+void add_triangle(Scene& scene)
+{
+    scene.meshes.push_back(
+        {"triangle", {{1, 2, .2}, {-.5, 1.5, 1}, {-.7, 2.5, -.9}}, {}, {{0, 1, 2}}});
+    scene.materials[1].emits_both_sides = true;
+    add_light(scene, MeshInstance{});
+}
+
+std::function<void(Scene&)> punctual(const PunctualLight& light)
+{
+    return [=](Scene& scene) { scene.lights.push_back(light); };
+}
+
+/// A spot 2 m away, 0.5 rad off the normal, whose axis passes the plane at `angle`.
+PunctualLight spot(double angle)
+{
+    return {.name = "spot",
+        .kind = PunctualLight::Kind::kSpot,
+        .intensity = glm::vec3(3),
+        .position = 2.0 * glm::dvec3(std::sin(0.5), std::cos(0.5), 0),
+        .direction = -glm::dvec3(std::sin(0.5 + angle), std::cos(0.5 + angle), 0),
+        .inner_cone = 0.2,
+        .outer_cone = 0.6};
+}
+
+double spot_irradiance(double angle)
+{
+    const double x = (std::cos(angle) - std::cos(0.6)) / (std::cos(0.2) - std::cos(0.6));
+    const double falloff = std::clamp(x, 0.0, 1.0);
+    return 3 * falloff * falloff * std::cos(0.5) / 4;
+}
+
+/// L(w) = 1 + b . w, with |b| = 0.8 at `angle` to the normal; a diffuse plane shows
+/// albedo (1 + 2/3 b . n).
+std::function<void(Scene&)> linear_sky(double angle)
+{
+    return [=](Scene& scene) {
+        EnvironmentMap map{"linear", 256, 128, {}};
+        for (std::uint32_t y = 0; y < map.height; ++y)
+            for (std::uint32_t x = 0; x < map.width; ++x) {
+                const double theta = pi * (y + 0.5) / map.height;
+                const double phi = 2 * pi * ((x + 0.5) / map.width - 0.5);
+                const glm::dvec3 w(std::sin(theta) * std::sin(phi), std::cos(theta),
+                    -std::sin(theta) * std::cos(phi));
+                const glm::dvec3 b = 0.8 * glm::dvec3(std::sin(angle), std::cos(angle), 0);
+                map.texels.emplace_back(static_cast<float>(1 + glm::dot(b, w)));
+            }
+        scene.environment = std::make_shared<EnvironmentMap>(map);
+        scene.background = glm::vec3(1);
+        // The map's frame is turned by a quarter about y: b's x comes to lie along the world's z.
+        scene.map_from_world = {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};
+    };
+}
+
+const std::vector<IrradianceCase>& irradiance_cases()
+{
+    static const std::vector<IrradianceCase> cases{
+        // Lambert 1760, E = 1/2 |sum theta_i (n . Gamma_i)|.
+        {"QuadAboveItsMiddle", 0.75227469, shape(unit_quad_above(1, {0, 0, 0}))},
+        {"QuadAboveItsCorner", 0.43520988, shape(unit_quad_above(1, {0.5, 0, 0.5}))},
+        {"QuadInNineParts", 0.75227469, split_quad(3)},
+        {"QuadOfTwoTriangles", 0.75227469, quad_mesh(1)},
+        {"QuadOf128Triangles", 0.75227469, quad_mesh(8)},
+        {"Triangle", 0.34712344, add_triangle},
+        {"Disk", pi / 5, shape(Disk{{0, 2, 0}, {0, -1, 0}, 1})},  // pi r^2 / (r^2 + h^2)
+        // pi (r/d)^2 cos(theta) clear of the horizon; cut by it: Snyder's closed form, recomputed
+        // by quadrature.
+        {"SphereOverhead", 0.785398, shape(sphere_at_angle(2, 1, 0))},
+        {"SphereAside", 0.162054, shape(sphere_at_angle(2, 0.5, 0.6))},
+        {"SphereCutByTheHorizon", 0.289484, shape(sphere_at_angle(2, 1, 1.2))},
+        {"SphereCutInHalf", 0.120531, shape(sphere_at_angle(2, 1, 1.5)), true, 128},
+        {"SphereMostlyBelow", 0.008259, shape(sphere_at_angle(3, 1, 1.7)), true, 256},
+        {"SphereVeryNear", 1.257843, shape(sphere_at_angle(1.2, 1, 1.0))},
+        {"SphereVeryNearAndLow", 0.300676, shape(sphere_at_angle(1.2, 1, 1.8)), true, 128},
+        // Intensity over distance squared, times the cosine.
+        {"Point", 3 * std::cos(0.5) / 4,
+            punctual({.intensity = glm::vec3(3), .position = sphere_at_angle(2, 1, 0.5).center}),
+            false, 1},
+        {"PointBelow", 0, punctual({.position = {0, -1, 0}}), false, 1},
+        {"SpotInItsInnerCone", spot_irradiance(0.1), punctual(spot(0.1)), false, 1},
+        {"SpotInItsPenumbra", spot_irradiance(0.4), punctual(spot(0.4)), false, 1},
+        {"SpotBesideItsCone", 0, punctual(spot(0.7)), false, 1},
+        {"Directional", 2 * std::cos(0.7),
+            punctual({.kind = PunctualLight::Kind::kDirectional,
+                .intensity = glm::vec3(2),
+                .direction = -sphere_at_angle(1, 1, 0.7).center}),
+            false, 1},
+        {"SkyBrightAbove", 1.533333 * pi, linear_sky(0)},
+        {"SkyBrightAside", 1.407916 * pi, linear_sky(0.7)},
+        {"SkyBrightBelow", 0.778055 * pi, linear_sky(2)},
+    };
+    return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, IrradianceTest, testing::ValuesIn(irradiance_cases()),
+    [](const auto& test) { return test.param.name; });
+
+/// Several kinds at once, side by side: irradiances add up.
+TEST_F(GlTest, LightsOfSeveralKindsAddUp)
+{
+    const TestScene scene(plane_under([](Scene& s) {
+        add_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
+        add_light(s, sphere_at_angle(2, 0.5, -0.6));
+        s.lights.push_back({.intensity = glm::vec3(3),
+            .position = 2.0 * glm::dvec3(0, std::cos(0.5), -std::sin(0.5))});
+        s.lights.push_back({.kind = PunctualLight::Kind::kDirectional,
+            .intensity = glm::vec3(2),
+            .direction = glm::normalize(glm::dvec3(1, -2, -1))});
+        s.lights.push_back({.name = "off", .intensity = glm::vec3(0)});
+    }));
+    const double expected = 0.43520988 + 0.162054 + 3 * std::cos(0.5) / 4 + 2 * 2 / std::sqrt(6.0);
+    RenderSettings s;
+    s.max_depth = 2;
+    s.samples_per_pixel = 128;
+    const Estimate estimate = mean_radiance(scene, s, 8);
+    EXPECT_NEAR(estimate.mean, 0.5 / pi * expected,
+        5 * estimate.standard_error + 2e-4 * 0.5 / pi * expected);
+}
+
+}  // namespace
+}  // namespace farlight
