@@ -1,5 +1,5 @@
-// glTF 2.0 (.gltf, .glb) -> Scene: geometry, node transforms, base colour and emissive factors,
-// the first perspective camera. Textures, skins, morph targets and animations are left out.
+// glTF 2.0 (.gltf, .glb) -> Scene. Read gltf_file.cpp for the order; gltf_extensions.cpp lists
+// which extensions are read.
 #pragma once
 
 #include "server/scene/scene.h"

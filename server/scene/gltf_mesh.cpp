@@ -3,7 +3,11 @@
 
 #include "server/scene/gltf_accessor.h"
 
+#include <algorithm>
+#include <array>
+#include <functional>
 #include <numeric>
+#include <tuple>
 
 namespace farlight {
 
@@ -80,7 +84,64 @@ Mesh read_attributes(const GltfContainer& gltf, const Json& attributes)
     mesh.uvs[0] = attribute<glm::vec2>(gltf, attributes, "TEXCOORD_0");
     mesh.uvs[1] = attribute<glm::vec2>(gltf, attributes, "TEXCOORD_1");
     mesh.colors = read_colors(gltf, attributes);
+    mesh.joints = attribute<glm::u16vec4>(gltf, attributes, "JOINTS_0");
+    mesh.weights = attribute<glm::vec4>(gltf, attributes, "WEIGHTS_0");
+    if (mesh.joints.size() != mesh.weights.size()) {  // one without the other says nothing
+        mesh.joints.clear();
+        mesh.weights.clear();
+    }
     return mesh;
+}
+
+/// Displacements; none for an accessor of zeros.
+std::vector<glm::vec3> displacements(
+    const GltfContainer& gltf, const Json& target, const char* name)
+{
+    const auto found = target.find(name);
+    if (found == target.end())
+        return {};
+    const Json& accessor = gltf.list("accessors")[found->get<std::size_t>()];
+    if (!accessor.contains("bufferView") && !accessor.contains("sparse"))
+        return {};
+    return read_accessor<glm::vec3>(gltf, *found);
+}
+
+std::vector<MorphTarget> read_targets(
+    const GltfContainer& gltf, const Json& primitive, bool has_normals)
+{
+    std::vector<MorphTarget> targets;
+    for (const Json& target : primitive.value("targets", Json::array())) {
+        MorphTarget& read = targets.emplace_back();
+        read.positions = displacements(gltf, target, "POSITION");
+        if (has_normals)
+            read.normals = displacements(gltf, target, "NORMAL");
+    }
+    return targets;
+}
+
+/// Of eight joints a vertex, the four with the largest weights.
+void keep_strongest_joints(
+    const GltfContainer& gltf, const Json& attributes, Mesh& mesh, MeshRepairs& repairs)
+{
+    const auto joints = attribute<glm::u16vec4>(gltf, attributes, "JOINTS_1");
+    const auto weights = attribute<glm::vec4>(gltf, attributes, "WEIGHTS_1");
+    if (joints.size() != mesh.joints.size() || weights.size() != joints.size())
+        return;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        std::array<std::pair<float, std::uint16_t>, 8> all;
+        for (int k = 0; k < 4; ++k) {
+            const auto place = static_cast<std::size_t>(k);
+            all[place] = {mesh.weights[i][k], mesh.joints[i][k]};
+            all[place + 4] = {weights[i][k], joints[i][k]};
+        }
+        // A NaN counts as nothing: comparisons with it would be no order.
+        for (auto& [weight, joint] : all)
+            weight = weight > 0 ? weight : 0;
+        std::sort(all.begin(), all.end(), std::greater<>());
+        for (int k = 0; k < 4; ++k)
+            std::tie(mesh.weights[i][k], mesh.joints[i][k]) = all[static_cast<std::size_t>(k)];
+        repairs.vertices_of_fewer_joints += all[4].first > 0 ? 1 : 0;
+    }
 }
 
 }  // namespace
@@ -94,6 +155,9 @@ Mesh read_gltf_primitive(
     const GltfContainer& gltf, const Json& primitive, const ScenePlace& place, MeshRepairs& repairs)
 {
     Mesh mesh = read_attributes(gltf, primitive["attributes"]);
+    mesh.morph_targets = read_targets(gltf, primitive, !mesh.normals.empty());
+    if (primitive["attributes"].contains("JOINTS_1"))
+        keep_strongest_joints(gltf, primitive["attributes"], mesh, repairs);
     const int mode = primitive.value("mode", kTriangles);
     const bool indexed = primitive.contains("indices");
     std::vector<std::uint32_t> corners;

@@ -33,22 +33,32 @@ glm::dmat4 matrix_of(const Json& values, const ScenePlace& place)
     return matrix;
 }
 
-glm::dmat4 parent_from_node(const Json& node, const ScenePlace& place)
+glm::dquat rotation_of(const Json& r, std::size_t& changed, const ScenePlace& place)
 {
-    if (node.contains("matrix"))
-        return matrix_of(node["matrix"], place / "matrix");
-    glm::dmat4 turn(1);
-    if (node.contains("rotation")) {
-        const Json& r = node["rotation"];  // glm takes w first, glTF has it last
-        const glm::dquat rotation(
-            r[3].get<double>(), r[0].get<double>(), r[1].get<double>(), r[2].get<double>());
-        const double length = glm::length(rotation);
-        if (!(length > 0 && length <= std::numeric_limits<float>::max()))
-            refuse(place / "rotation", "a quaternion of no length", "a unit quaternion");
-        turn = glm::mat4_cast(rotation / length);
+    const glm::dquat rotation(  // glm takes w first, glTF has it last
+        r[3].get<double>(), r[0].get<double>(), r[1].get<double>(), r[2].get<double>());
+    const double length = glm::length(rotation);
+    if (!(length > 0 && length <= std::numeric_limits<float>::max()))
+        refuse(place, "a quaternion of no length", "a unit quaternion");
+    changed += std::abs(length - 1) <= kRoundedRotation ? 0 : 1;
+    return rotation / length;
+}
+
+/// Fills transform and parent_from_node.
+void read_transform(const Json& json, GltfNode& node, std::size_t& changed, const ScenePlace& place)
+{
+    Node& transform = node.transform;
+    transform.name = json.value("name", "node " + std::to_string(node.index));
+    if (json.contains("matrix")) {
+        transform.local = node.parent_from_node = matrix_of(json["matrix"], place / "matrix");
+        return;
     }
-    return glm::translate(glm::dmat4(1), vec3_or(node, "translation", glm::dvec3(0))) * turn
-        * glm::scale(glm::dmat4(1), vec3_or(node, "scale", glm::dvec3(1)));
+    if (json.contains("rotation"))
+        transform.rotation = rotation_of(json["rotation"], changed, place / "rotation");
+    transform.translation = vec3_or(json, "translation", glm::dvec3(0));
+    transform.scale = vec3_or(json, "scale", glm::dvec3(1));
+    node.parent_from_node = glm::translate(glm::dmat4(1), transform.translation)
+        * glm::mat4_cast(transform.rotation) * glm::scale(glm::dmat4(1), transform.scale);
 }
 
 void check_bounded(const glm::dmat4& matrix, const ScenePlace& place)
@@ -61,40 +71,49 @@ void check_bounded(const glm::dmat4& matrix, const ScenePlace& place)
 
 struct Visit {
     std::size_t node;
-    glm::dmat4 world_from_parent;
+    std::uint32_t parent;  // in the tree
     ScenePlace reference;  // where the file names this node
 };
 
 }  // namespace
 
-std::vector<GltfNode> gltf_nodes(const GltfContainer& gltf, std::size_t scene)
+std::uint32_t GltfTree::find(std::size_t index) const
+{
+    return places[index];
+}
+
+GltfTree read_gltf_tree(const GltfContainer& gltf, std::size_t scene)
 {
     const Json& nodes = gltf.list("nodes");
-    std::vector<bool> reached(nodes.size(), false);
-    std::vector<GltfNode> flat;
+    GltfTree tree;
+    tree.places.resize(nodes.size(), kNone);
     std::vector<Visit> stack;
-    const auto push = [&](const Json& owner, const char* key, const glm::dmat4& world,
+    const auto push = [&](const Json& owner, const char* key, std::uint32_t parent,
                           const ScenePlace& place) {
         const auto found = owner.find(key);
         for (std::size_t i = found == owner.end() ? 0 : found->size(); i-- > 0;)
-            stack.push_back({(*found)[i].get<std::size_t>(), world, place / key / i});
+            stack.push_back({(*found)[i].get<std::size_t>(), parent, place / key / i});
     };  // backwards: the first is visited first
-    push(gltf.list("scenes")[scene], "nodes", glm::dmat4(1), gltf.root / "scenes" / scene);
+    push(gltf.list("scenes")[scene], "nodes", kNone, gltf.root / "scenes" / scene);
     while (!stack.empty()) {
         const Visit visit = std::move(stack.back());
         stack.pop_back();
-        if (reached[visit.node])
+        if (tree.places[visit.node] != kNone)
             refuse(visit.reference, "node " + std::to_string(visit.node) + " a second time",
                 "a tree: no cycles, one parent a node");
-        reached[visit.node] = true;
-        const Json& node = nodes[visit.node];
+        const auto here = static_cast<std::uint32_t>(tree.nodes.size());
+        tree.places[visit.node] = here;
         const ScenePlace place = gltf.root / "nodes" / visit.node;
-        const glm::dmat4 world = visit.world_from_parent * parent_from_node(node, place);
-        check_bounded(world, place);
-        flat.push_back({visit.node, world});
-        push(node, "children", world, place);
+        GltfNode node{.index = visit.node, .parent = visit.parent};
+        read_transform(nodes[visit.node], node, tree.changed_rotations, place);
+        node.world_from_node = visit.parent == kNone
+            ? node.parent_from_node
+            : tree.nodes[visit.parent].world_from_node * node.parent_from_node;
+        check_bounded(node.world_from_node, place);
+        tree.nodes.push_back(std::move(node));
+        push(nodes[visit.node], "children", here, place);
     }
-    return flat;
+    return tree;
 }
 
 }  // namespace farlight

@@ -19,6 +19,9 @@ namespace {
 /// As in a scene file: the square is still a finite float.
 constexpr float kLargestRadiance = 1e18F;
 
+/// A deflated PNG of one bit a texel packs the most: 8 * 1032 texels into a byte (RFC 1951).
+constexpr std::int64_t kMostTexelsAByte = 8256;
+
 constexpr std::array<unsigned char, 4> kExrMagic{0x76, 0x2f, 0x31, 0x01};
 
 struct Size {
@@ -63,6 +66,11 @@ Size stb_size(const Encoded& picture, const ScenePlace& place, const char* expec
         == 0)
         refuse(place, std::string("no picture: ") + stbi_failure_reason(), expected);
     check_size(size, place);
+    if (std::int64_t{size.width} * size.height > picture.length * kMostTexelsAByte)
+        refuse(place,
+            "a picture of " + std::to_string(size.width) + " x " + std::to_string(size.height)
+                + " in " + std::to_string(picture.length) + " bytes",
+            "bytes for all of it");
     return size;
 }
 

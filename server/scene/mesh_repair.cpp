@@ -105,9 +105,33 @@ std::size_t repair_colors(Mesh& mesh)
     return changed;
 }
 
-std::string counted(std::size_t count, const char* one, const char* many)
+/// Brings each vertex' weights to a sum of 1; a joint without weight becomes joint 0.
+std::size_t repair_weights(Mesh& mesh)
 {
-    return count == 1 ? std::string("1 ") + one : std::to_string(count) + " " + many;
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < mesh.weights.size(); ++i) {
+        glm::vec4& weights = mesh.weights[i];
+        for (int k = 0; k < 4; ++k)
+            if (!(weights[k] > 0 && weights[k] <= kLargestCoordinate)) {
+                weights[k] = 0;
+                mesh.joints[i][k] = 0;
+            }
+        const float sum = weights.x + weights.y + weights.z + weights.w;
+        changed += sum > 0 ? 0 : 1;
+        weights = sum > 0 ? weights / sum : glm::vec4(1, 0, 0, 0);
+    }
+    return changed;
+}
+
+std::size_t repair_displacements(std::vector<glm::vec3>& displacements)
+{
+    std::size_t dropped = 0;
+    for (glm::vec3& displacement : displacements)
+        if (!bounded(displacement)) {
+            displacement = glm::vec3(0);
+            ++dropped;
+        }
+    return dropped;
 }
 
 }  // namespace
@@ -120,30 +144,34 @@ MeshRepairs& MeshRepairs::operator+=(const MeshRepairs& other)
     dropped_tangents += other.dropped_tangents;
     replaced_uvs += other.replaced_uvs;
     changed_colors += other.changed_colors;
+    changed_weights += other.changed_weights;
+    vertices_of_fewer_joints += other.vertices_of_fewer_joints;
+    dropped_displacements += other.dropped_displacements;
     return *this;
 }
 
 std::vector<std::string> MeshRepairs::notes() const
 {
     std::vector<std::string> notes;
-    if (zero_area_triangles > 0)
-        notes.push_back(
-            counted(zero_area_triangles, "triangle", "triangles") + " of zero area left out");
-    if (unbounded_triangles > 0)
-        notes.push_back(counted(unbounded_triangles, "triangle", "triangles")
-            + " with a corner that is not finite (or beyond 1e11) left out");
-    if (replaced_normals > 0)
-        notes.push_back(counted(replaced_normals, "shading normal", "shading normals")
-            + " without a direction replaced by the faces around");
-    if (dropped_tangents > 0)
-        notes.push_back(counted(dropped_tangents, "tangent", "tangents")
-            + " without a direction: its mesh gets new ones where it needs any");
-    if (replaced_uvs > 0)
-        notes.push_back(counted(replaced_uvs, "texture coordinate", "texture coordinates")
-            + " not finite: now 0, 0");
-    if (changed_colors > 0)
-        notes.push_back(
-            counted(changed_colors, "vertex colour", "vertex colours") + " outside [0, 1] clamped");
+    const auto note = [&](std::size_t count, const char* one, const char* many, const char* what) {
+        if (count > 0)
+            notes.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + what);
+    };
+    note(zero_area_triangles, "triangle", "triangles", " of zero area left out");
+    note(unbounded_triangles, "triangle", "triangles",
+        " with a corner that is not finite (or beyond 1e11) left out");
+    note(replaced_normals, "shading normal", "shading normals",
+        " without a direction replaced by the faces around");
+    note(dropped_tangents, "tangent", "tangents",
+        " without a direction: its mesh gets new ones where it needs any");
+    note(replaced_uvs, "texture coordinate", "texture coordinates", " not finite: now 0, 0");
+    note(changed_colors, "vertex colour", "vertex colours", " outside [0, 1] clamped");
+    note(changed_weights, "vertex", "vertices",
+        " without joint weights: the first joint moves them");
+    note(vertices_of_fewer_joints, "vertex", "vertices",
+        " with more than four joints: the four strongest move them");
+    note(dropped_displacements, "morph displacement", "morph displacements",
+        " not finite (or beyond 1e11): now 0");
     return notes;
 }
 
@@ -169,6 +197,10 @@ MeshRepairs repair_mesh(Mesh& mesh)
     repairs.dropped_tangents = repair_tangents(mesh);
     repairs.replaced_uvs = repair_uvs(mesh);
     repairs.changed_colors = repair_colors(mesh);
+    repairs.changed_weights = repair_weights(mesh);
+    for (MorphTarget& target : mesh.morph_targets)
+        repairs.dropped_displacements +=
+            repair_displacements(target.positions) + repair_displacements(target.normals);
     return repairs;
 }
 

@@ -18,6 +18,9 @@ struct MeshRepairs {
     std::size_t dropped_tangents = 0;  ///< Not finite or zero.
     std::size_t replaced_uvs = 0;  ///< Not finite; now 0.
     std::size_t changed_colors = 0;  ///< Now in [0, 1].
+    std::size_t changed_weights = 0;  ///< Vertices whose joints' weights had no sum: now all first.
+    std::size_t vertices_of_fewer_joints = 0;  ///< Which more than four joints would move.
+    std::size_t dropped_displacements = 0;  ///< Of morph targets, not finite or too far; now 0.
 
     MeshRepairs& operator+=(const MeshRepairs& other);
     /// One sentence a kind of repair that was made, for Scene::notes.

@@ -75,7 +75,8 @@ template <typename T>
 int GltfBuilder::add(
     const std::vector<T>& values, const std::string& type, std::size_t stride, bool normalized)
 {
-    const std::size_t lanes = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+    std::size_t lanes = type == "SCALAR" ? 1 : static_cast<std::size_t>(type.back() - '0');
+    lanes *= type.starts_with("MAT") ? lanes : 1;  // columns of 4-byte components have no gaps
     const std::string_view raw(
         reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
     nlohmann::json accessor{

@@ -259,7 +259,7 @@ TEST_F(GltfMaterialTest, AHugePictureInFewBytesIsRefusedBeforeItIsMade)
     huge[22] = 0x30;  // height 1 + 12288
     GltfBuilder gltf = with_material({{"emissiveTexture", {{"index", 0}}}});
     gltf.document["images"] = {{{"uri", data_uri("image/png", huge)}}};
-    EXPECT_THAT(refusal_of(gltf), HasSubstr("found an image of 16386 x 12289"));
+    EXPECT_THAT(refusal_of(gltf), HasSubstr("found a picture of 16386 x 12289"));
     huge[18] = 0x30;
     gltf.document["images"] = {{{"uri", data_uri("image/png", huge)}}};
     EXPECT_THAT(refusal_of(gltf), HasSubstr("expected bytes for all of it"));
