@@ -8,6 +8,7 @@
 #pragma once
 
 #include "server/scene/scene.h"
+#include "shaders/shared/scene_layout.h"
 
 #include <cstdint>
 #include <optional>
@@ -94,9 +95,8 @@ std::vector<ActiveEffect> active_effects(const Scene& scene, const SceneContent&
 
 EffectMask mask_of(const std::vector<ActiveEffect>& effects);
 
-/// Perceptual roughness up to which a reflection or refraction is perfectly sharp: GGX alpha, its
-/// square, is then at most 1e-4, less than a pixel's angle. Constant roughness only: what a texture
-/// says is held above it.
-constexpr float kMirrorRoughness = 0.01F;
+/// Perceptual roughness up to which a reflection or refraction is perfectly sharp. Constant
+/// roughness only: what a texture says is held above it.
+constexpr float kMirrorRoughness = MIRROR_ROUGHNESS;
 
 }  // namespace farlight

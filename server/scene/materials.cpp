@@ -3,18 +3,10 @@
 
 #include "shaders/shared/scene_layout.h"
 
+#include <algorithm>
+
 namespace farlight {
 namespace {
-
-std::uint32_t bits(float value)
-{
-    return glm::floatBitsToUint(value);
-}
-
-glm::uvec4 texel(const glm::vec3& xyz, std::uint32_t w)
-{
-    return {glm::floatBitsToUint(xyz), w};
-}
 
 std::uint32_t flags_of(const Material& material)
 {
@@ -41,12 +33,24 @@ void pack(const Material& m, glm::uvec4* texels)
 
 }  // namespace
 
-std::vector<glm::uvec4> pack_materials(const std::vector<Material>& materials)
+Texels pack_materials(const std::vector<Material>& materials)
 {
-    std::vector<glm::uvec4> texels(materials.size() * MATERIAL_TEXELS);
+    Texels texels(materials.size() * MATERIAL_TEXELS);
     for (std::size_t i = 0; i < materials.size(); ++i)
         pack(materials[i], &texels[i * MATERIAL_TEXELS]);
     return texels;
+}
+
+bool scatters_roughly(const std::vector<Material>& materials)
+{
+    return std::any_of(materials.begin(), materials.end(), [](const Material& m) {
+        const bool base = m.metallic > 0 || m.specular > 0 || m.transmission > 0;
+        const bool rough_base =
+            m.metallic_roughness_texture.used() || m.roughness > MIRROR_ROUGHNESS;
+        const bool rough_coat =
+            m.clearcoat_roughness_texture.used() || m.clearcoat_roughness > MIRROR_ROUGHNESS;
+        return !m.unlit && ((base && rough_base) || (m.clearcoat > 0 && rough_coat));
+    });
 }
 
 }  // namespace farlight

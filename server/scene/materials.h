@@ -2,10 +2,14 @@
 #pragma once
 
 #include "server/scene/scene.h"
+#include "server/scene/texels.h"
 
 namespace farlight {
 
 /// MATERIAL_TEXELS texels a material (shaders/shared/scene_layout.h).
-std::vector<glm::uvec4> pack_materials(const std::vector<Material>& materials);
+Texels pack_materials(const std::vector<Material>& materials);
+
+/// Whether a lobe of any is neither diffuse nor a mirror, so that the albedo table is read.
+bool scatters_roughly(const std::vector<Material>& materials);
 
 }  // namespace farlight

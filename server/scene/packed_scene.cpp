@@ -1,6 +1,7 @@
 // The steps from a Scene to its tables: flatten, tree, effects, pack.
 #include "server/scene/packed_scene.h"
 
+#include "server/scene/albedo_tables.h"
 #include "server/scene/bvh.h"
 #include "server/scene/materials.h"
 
@@ -108,6 +109,10 @@ PackedScene pack_scene(const Scene& scene, const TextureLimits& limits)
     packed.geometry =
         pack_geometry(scene, flat, bvh.order, attributes_for(mask_of(packed.effects)));
     packed.materials = pack_materials(scene.materials);
+    if (scatters_roughly(scene.materials))
+        packed.reflection_albedo = reflection_albedo_table();
+    if (mask_of(packed.effects).has("FX_ROUGH_DIELECTRIC"))
+        packed.dielectric_albedo = dielectric_albedo_table();
     packed.dropped_triangles = flat.dropped_triangles;
     return packed;
 }
@@ -117,8 +122,10 @@ std::vector<std::pair<const char*, const Texels*>> PackedScene::tables() const
     return {{"bvh_nodes", &bvh_nodes}, {"triangles", &geometry.triangles},
         {"spheres", &geometry.spheres}, {"disks", &geometry.disks}, {"normals", &geometry.normals},
         {"uvs", &geometry.uvs[0]}, {"uvs1", &geometry.uvs[1]}, {"tangents", &geometry.tangents},
-        {"colors", &geometry.colors}, {"materials", &materials}, {"lights", &lights->lights()},
-        {"light_textures", &lights->textures()}, {"environment", &lights->environment()}};
+        {"colors", &geometry.colors}, {"materials", &materials},
+        {"reflection_albedo", &reflection_albedo}, {"dielectric_albedo", &dielectric_albedo},
+        {"lights", &lights->lights()}, {"light_textures", &lights->textures()},
+        {"environment", &lights->environment()}};
 }
 
 }  // namespace farlight

@@ -15,6 +15,8 @@ struct PackedScene {
     Texels bvh_nodes;
     PackedGeometry geometry;
     Texels materials;
+    Texels reflection_albedo;
+    Texels dielectric_albedo;
     std::optional<LightTable> lights;  ///< Never absent once packed.
     TextureLayout textures;
     SceneContent content;

@@ -15,6 +15,9 @@ vec4 material_texel(uint material, int which)
     return uintBitsToFloat(texelFetch(materials, int(material) * MATERIAL_TEXELS + which));
 }
 
+// GGX alpha of a constant perceptual roughness.
+float alpha_of(float roughness) { return roughness > MIRROR_ROUGHNESS ? roughness * roughness : 0.0; }
+
 // The material of surface `s` seen along unit `wo`, which points away from the surface.
 ShadedMaterial material_at(Surface s, vec3 wo, TextureLookup lookup)
 {
@@ -30,16 +33,16 @@ ShadedMaterial material_at(Surface s, vec3 wo, TextureLookup lookup)
     m.unlit = (flags & MATERIAL_UNLIT) != 0u;
     m.emission += m.unlit ? m.albedo : vec3(0.0);
 #endif
-#if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+#if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC)
     const vec4 base = material_texel(material, MATERIAL_BASE);
     const vec4 specular = material_texel(material, MATERIAL_SPECULAR);
     m.metallic = base.x;
-    m.roughness = base.y;
+    m.alpha = alpha_of(base.y);
     m.specular = base.z;
     m.ior = base.w;
     m.specular_color = specular.rgb;
 #endif
-#if defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+#ifdef FX_DIELECTRIC
     const vec4 inside = material_texel(material, MATERIAL_INSIDE);
     m.transmission = specular.w;
     m.thin_walled = (flags & MATERIAL_THIN_WALLED) != 0u;
@@ -49,7 +52,7 @@ ShadedMaterial material_at(Surface s, vec3 wo, TextureLookup lookup)
 #ifdef FX_CLEARCOAT
     const vec4 coat = material_texel(material, MATERIAL_COAT);
     m.clearcoat = coat.x;
-    m.clearcoat_roughness = coat.y;
+    m.clearcoat_alpha = alpha_of(coat.y);
     m.clearcoat_normal = s.shading_normal;
 #endif
     return m;

@@ -9,14 +9,14 @@ struct ShadedMaterial {
 #ifdef FX_UNLIT
     bool unlit;
 #endif
-#if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+#if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC)
     float metallic;
-    float roughness;  // perceptual
+    float alpha;  // of GGX; 0: a mirror
     float specular;
     float ior;  // of the inside
     vec3 specular_color;
 #endif
-#if defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
+#ifdef FX_DIELECTRIC
     float transmission;
     bool thin_walled;
     vec3 absorption;
@@ -24,7 +24,7 @@ struct ShadedMaterial {
 #endif
 #ifdef FX_CLEARCOAT
     float clearcoat;
-    float clearcoat_roughness;
+    float clearcoat_alpha;
     vec3 clearcoat_normal;  // unit, world space, on the viewer's side
 #endif
 };

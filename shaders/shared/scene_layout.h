@@ -68,6 +68,21 @@
 #define MATERIAL_ALPHA_MASK 8u
 #define MATERIAL_ALPHA_BLEND 16u
 
+// At or below this perceptual roughness a lobe is a mirror. 2^-5, so alpha is 2^-10: the distribution of half vectors
+// known to 3 ulp still has 3 digits (4 * 3 ulp / alpha), and the blur is less than a pixel of a 720 lines high picture.
+#define MIRROR_ROUGHNESS 0.03125
+#define GGX_ALPHA_MIN 0.0009765625
+
+//   reflection_albedo  (ALBEDO_NODES - 1)^2 cells of albedo without Fresnel over albedo_coordinate (fastest) and
+//                      perceptual roughness; then as many of the fifth root of Schlick's mean weight over cosine and
+//                      roughness. A cell holds its corners (0, 0), (1, 0), (0, 1), (1, 1).
+//   dielectric_albedo  DIELECTRIC_ETA_NODES layers of (DIELECTRIC_NODES - 1)^2 cells over coordinate and roughness;
+//                      layers over (eta - 1) / (eta + 1) from -DIELECTRIC_CONTRAST to +DIELECTRIC_CONTRAST
+#define ALBEDO_NODES 32
+#define DIELECTRIC_NODES 16
+#define DIELECTRIC_ETA_NODES 25
+#define DIELECTRIC_CONTRAST 0.6  // eta from 1/4 to 4
+
 #define LIGHT_QUAD 0u      // parallelogram p0 + s * edge_u + t * edge_v
 #define LIGHT_TRIANGLE 1u  // p0, p0 + edge_u, p0 + edge_v
 #define LIGHT_SPHERE 2u
