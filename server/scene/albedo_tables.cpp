@@ -69,7 +69,9 @@ double fresnel(double cos_i, double eta)
 }
 
 constexpr int kReflectionSamples = 1597;
-constexpr int kDielectricSamples = 1597;
+// Total reflection from inside has edges that take more samples.
+constexpr int kDielectricSamples = 610;
+constexpr int kInsideSamples = 1597;
 
 /// Alpha of a node on the axis of perceptual roughness; at 0 the limit, which is reached here.
 double alpha_at(double roughness)
@@ -80,7 +82,9 @@ double alpha_at(double roughness)
 /// The inverse of albedo_coordinate() in bsdf/albedo_table.glsl, off the horizon itself.
 double cosine_at(double coordinate, double alpha)
 {
-    return std::clamp(alpha * coordinate / (1 + alpha - coordinate), 1e-9, 1.0);
+    const double root = 0.5 * (std::sqrt(1 + 8 * coordinate) - 1);
+    const double t = root * root;
+    return std::clamp(alpha * t / (1 + alpha - t), 1e-9, 1.0);
 }
 
 /// Cells with their four corners from `value(x, y)` on nodes over [0, 1]^2; x runs fastest.
@@ -107,9 +111,10 @@ Texels integrate_reflection()
         const double alpha = alpha_at(roughness);
         return reflection_albedo(cosine_at(coordinate, alpha), alpha).total;
     });
-    append_cells(texels, ALBEDO_NODES, [](double cosine, double roughness) {
-        return std::pow(
-            reflection_albedo(std::max(cosine, 1e-9), alpha_at(roughness)).schlick, 0.2);
+    append_cells(texels, ALBEDO_NODES, [](double root, double roughness) {
+        const double cosine = std::max(root * root, 1e-9);
+        const double schlick = reflection_albedo(cosine, alpha_at(roughness)).schlick;
+        return std::pow(schlick, 0.2) - (1 - cosine);
     });
     return texels;
 }
@@ -157,7 +162,8 @@ double dielectric_albedo(double cos_o, double alpha, double eta)
         const Vec3 down = (cos_h / eta - std::sqrt(cos2_t)) * h - wo / eta;
         return glm::dvec2(reflected, down.z < 0 ? (1 - f) * shadowing(wo, down, alpha) : 0);
     };
-    const glm::dvec2 parts = mean_over_visible_normals(wo, alpha, kDielectricSamples, scattered);
+    const glm::dvec2 parts = mean_over_visible_normals(
+        wo, alpha, eta < 1 ? kInsideSamples : kDielectricSamples, scattered);
     return parts.x + parts.y;
 }
 

@@ -22,11 +22,12 @@ float table_value(uvec4 corners, float x, float y)
     return value;
 }
 
-// Most of what changes with the cosine changes where it is about alpha.
+// Most of what changes with the cosine changes where it is about alpha, and towards the horizon.
 float albedo_coordinate(float cos_o, float alpha)
 {
     precise const float t = cos_o * (1.0 + alpha) / (cos_o + alpha);
-    return t;
+    precise const float x = 0.5 * (t + sqrt(t));
+    return x;
 }
 
 // Of GGX alone: x without Fresnel, y the mean of Schlick's weight over what is reflected. A delta lobe has alpha 0.
@@ -37,10 +38,10 @@ vec2 reflection_albedo_at(float cos_o, float alpha)
     table_place(sqrt(alpha), ALBEDO_NODES, j, y);
     table_place(albedo_coordinate(cos_o, alpha), ALBEDO_NODES, i, x);
     const float albedo = table_value(texelFetch(reflection_albedo, j * (ALBEDO_NODES - 1) + i), x, y);
-    table_place(cos_o, ALBEDO_NODES, i, x);
+    table_place(sqrt(cos_o), ALBEDO_NODES, i, x);
     const int schlick_part = (ALBEDO_NODES - 1) * (ALBEDO_NODES - 1);
-    precise const float q
-        = table_value(texelFetch(reflection_albedo, schlick_part + j * (ALBEDO_NODES - 1) + i), x, y);
+    precise const float q = 1.0 - cos_o
+        + table_value(texelFetch(reflection_albedo, schlick_part + j * (ALBEDO_NODES - 1) + i), x, y);
     // A scene without anything rough has no table to read.
     return alpha > 0.0 && albedo > 0.0 ? vec2(albedo, (q * q) * (q * q) * q) : vec2(1.0, schlick_weight(cos_o));
 }

@@ -74,12 +74,12 @@
 #define GGX_ALPHA_MIN 0.0009765625
 
 //   reflection_albedo  (ALBEDO_NODES - 1)^2 cells of albedo without Fresnel over albedo_coordinate (fastest) and
-//                      perceptual roughness; then as many of the fifth root of Schlick's mean weight over cosine and
-//                      roughness. A cell holds its corners (0, 0), (1, 0), (0, 1), (1, 1).
+//                      perceptual roughness; then as many of q - (1 - cosine) over sqrt(cosine) and roughness, where
+//                      q^5 is Schlick's mean weight. A cell holds its corners (0, 0), (1, 0), (0, 1), (1, 1).
 //   dielectric_albedo  DIELECTRIC_ETA_NODES layers of (DIELECTRIC_NODES - 1)^2 cells over coordinate and roughness;
 //                      layers over (eta - 1) / (eta + 1) from -DIELECTRIC_CONTRAST to +DIELECTRIC_CONTRAST
 #define ALBEDO_NODES 32
-#define DIELECTRIC_NODES 16
+#define DIELECTRIC_NODES 20
 #define DIELECTRIC_ETA_NODES 25
 #define DIELECTRIC_CONTRAST 0.6  // eta from 1/4 to 4
 
