@@ -62,6 +62,7 @@ struct BsdfSample {
     bool transmitted;  // wi is on the other side of the surface
     bool diffuse;      // the lobe that was chosen
     float roughness;   // GGX alpha of that lobe; diffuse: 1
+    BsdfValue value;   // at wi, without delta lobes
 };
 
 vec3 to_local(Bsdf b, vec3 world)
@@ -225,7 +226,8 @@ BsdfSample bsdf_sample(Bsdf b, vec3 viewer, vec4 u)
     const vec3 wo = above_horizon(viewer);
     precise vec3 wi = sample_cosine_hemisphere(u.xy);
     precise vec3 weight = vec3(0.0);  // of a delta lobe
-    BsdfSample s = BsdfSample(wi, vec3(0.0), 0.0, false, false, true, 1.0);
+    const BsdfValue none = BsdfValue(vec3(0.0), vec3(0.0), 0.0);
+    BsdfSample s = BsdfSample(wi, vec3(0.0), 0.0, false, false, true, 1.0, none);
     // The diffuse lobe comes last, and takes what rounding leaves.
     precise float start = 0.0;
     bool lost = false;  // a facet sends the light into the surface
@@ -234,7 +236,7 @@ BsdfSample bsdf_sample(Bsdf b, vec3 viewer, vec4 u)
     if (chosen(u.w, b.p_reflection, start)) {
         wi = base;
         weight = reflectance(b.reflection, wo.z) / b.p_reflection;
-        s = BsdfSample(wi, vec3(0.0), 0.0, b.reflection.alpha == 0.0, false, false, b.reflection.alpha);
+        s = BsdfSample(wi, vec3(0.0), 0.0, b.reflection.alpha == 0.0, false, false, b.reflection.alpha, none);
         lost = !(wi.z > 0.0);
     }
 #endif
@@ -243,7 +245,7 @@ BsdfSample bsdf_sample(Bsdf b, vec3 viewer, vec4 u)
     if (chosen(u.w, b.p_coat, start)) {
         wi = coat;
         weight = vec3(reflectance(b.coat, (above_horizon(wo * b.coat.frame)).z) / b.p_coat);
-        s = BsdfSample(wi, vec3(0.0), 0.0, b.coat.alpha == 0.0, false, false, b.coat.alpha);
+        s = BsdfSample(wi, vec3(0.0), 0.0, b.coat.alpha == 0.0, false, false, b.coat.alpha, none);
         lost = !(dot(b.coat.frame[2], wi) > 0.0);
     }
 #endif
@@ -253,7 +255,7 @@ BsdfSample bsdf_sample(Bsdf b, vec3 viewer, vec4 u)
     if (chosen(u.w, b.p_interface, start)) {
         wi = surface.wi;
         weight = surface.weight / b.p_interface;
-        s = BsdfSample(wi, vec3(0.0), 0.0, b.surface.alpha == 0.0, surface.transmitted, false, b.surface.alpha);
+        s = BsdfSample(wi, vec3(0.0), 0.0, b.surface.alpha == 0.0, surface.transmitted, false, b.surface.alpha, none);
         lost = (wi.z > 0.0) == s.transmitted;
     }
 #endif
@@ -264,6 +266,7 @@ BsdfSample bsdf_sample(Bsdf b, vec3 viewer, vec4 u)
 #endif
     const BsdfValue v = bsdf_evaluate(b, wo, wi);
     s.wi = wi;
+    s.value = v;
     if (!s.delta) {
         s.pdf = lost ? 0.0 : v.pdf;
         weight = s.pdf > 0.0 ? (v.diffuse + v.specular) / s.pdf : vec3(0.0);

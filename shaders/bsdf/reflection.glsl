@@ -1,5 +1,5 @@
-// Reflection by the base layer: a conductor, a dielectric over something diffuse, or a blend. Both share a roughness, so
-// they are one lobe whose Fresnel term is blended; the blend is scaled to the sum of both albedos with all scattering
+// Reflection by the base layer: a conductor, a dielectric over something diffuse, or a blend. Both share a roughness,
+// so they are one lobe whose Fresnel term is blended; the blend is scaled to the sum of both albedos with all scattering
 // between the facets, so that the diffuse layer below gets exactly what is left.
 //
 // Source: glTF 2.0, appendix B; KHR_materials_ior; KHR_materials_specular; compensation: see bsdf/albedo_table.glsl.
@@ -21,7 +21,7 @@ vec3 dielectric_f0(ShadedMaterial m, float eta)
     return min(fresnel_normal(eta) * m.specular_color, vec3(1.0)) * m.specular;
 }
 
-// `opaque` is the part of the surface that is a dielectric over a diffuse layer. Returns in `below` what that lets through.
+// `opaque` is the part of the surface that is a dielectric over a diffuse layer; `below` is what that lets through.
 Reflection make_reflection(ShadedMaterial m, float cos_o, float eta, float opaque, out vec3 below)
 {
     Reflection r;

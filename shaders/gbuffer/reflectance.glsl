@@ -29,14 +29,14 @@ vec4 reflectance(ShadedMaterial m, vec3 wo)
     const float root = (m.ior - 1.0) / (m.ior + 1.0);
     const vec3 f0 = min(root * root * m.specular_color, vec3(1.0));
     base = mix(m.specular * schlick(f0, cosine), schlick(m.albedo, cosine), m.metallic);
-    alpha = m.roughness * m.roughness;
+    alpha = m.alpha;
 #endif
 #if defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
     base += (1.0 - m.metallic) * m.transmission * m.albedo;
 #endif
 #ifdef FX_CLEARCOAT
     coat = m.clearcoat * schlick(vec3(0.04), cosine).x;
-    coat_alpha = m.clearcoat_roughness * m.clearcoat_roughness;
+    coat_alpha = m.clearcoat_alpha;
 #endif
     const float part_of_coat = coat / max(coat + max_component(base), LEAST_REFLECTANCE);
     const bool specular = max_component(base) + coat > 0.0;

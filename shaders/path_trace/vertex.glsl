@@ -78,7 +78,6 @@ Bounce sample_bounce(Vertex v, vec4 u)
 {
     const vec3 wo = to_local(v.bsdf, v.wo);
     const BsdfSample b = bsdf_sample(v.bsdf, wo, u);
-    const BsdfValue value = bsdf_evaluate(v.bsdf, wo, b.wi);
     Bounce bounce;
     bounce.wi = to_world(v.bsdf, b.wi);
     bounce.delta = b.delta;
@@ -86,7 +85,7 @@ Bounce sample_bounce(Vertex v, vec4 u)
     bounce.roughness = b.roughness;
     const bool usable = max_component(b.weight) > 0.0;
     const float scale = usable && !b.delta ? 1.0 / b.pdf : 0.0;
-    bounce.weight = Scattered(value.diffuse * scale, value.specular * scale, b.pdf);
+    bounce.weight = Scattered(b.value.diffuse * scale, b.value.specular * scale, b.pdf);
     if (b.delta)
         bounce.weight.specular = b.weight;
 #ifdef FX_FOG
