@@ -1,6 +1,7 @@
 // Decoding, with limits checked before anything is allocated.
 #include "server/scene/image_file.h"
 
+#include "server/scene/hdr_check.h"
 #include "server/scene/json_text.h"
 
 #include <algorithm>
@@ -99,6 +100,10 @@ EnvironmentFile repaired(const float* texels, int stride, const Size& size)
 EnvironmentFile read_hdr(const Encoded& picture, const ScenePlace& place)
 {
     Size size = stb_size(picture, place, "a Radiance HDR picture");
+    const std::span<const unsigned char> bytes(
+        picture.bytes, static_cast<std::size_t>(picture.length));
+    if (!hdr_is_complete(bytes, size.width, size.height))
+        refuse(place, "a picture that breaks off", "a Radiance HDR picture");
     int channels = 0;
     const std::unique_ptr<float, void (*)(void*)> texels(
         stbi_loadf_from_memory(

@@ -12,6 +12,21 @@ namespace {
 /// The lamp is seen under (r / d)^2 = 1/25, so facing it a surface receives pi * 0.8 W/m^2.
 constexpr float kLampRadiance = 20;
 
+/// Or shows without light.
+bool is_lit(const Scene& scene)
+{
+    if (scene.background != glm::vec3(0) || scene.environment || !scene.lights.empty())
+        return true;
+    const auto material = [&](const Object& object) -> const Material& {
+        return scene.materials[object.material];
+    };
+    const auto& objects = scene.objects;
+    return std::any_of(objects.begin(), objects.end(),
+               [&](const Object& o) { return material(o).emission != glm::vec3(0); })
+        || std::all_of(
+            objects.begin(), objects.end(), [&](const Object& o) { return material(o).unlit; });
+}
+
 }  // namespace
 
 CameraPose framing_camera(const Bounds& bounds)
@@ -36,11 +51,7 @@ void add_framing_camera(Scene& scene)
 
 void add_default_light(Scene& scene)
 {
-    const bool object_emits =
-        std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-            return scene.materials[object.material].emission != glm::vec3(0);
-        });
-    if (object_emits || scene.background != glm::vec3(0))
+    if (is_lit(scene))
         return;
     // Light from all around alone would make a white model vanish before a white background: a lamp
     // models it.

@@ -11,8 +11,8 @@ CameraPose framing_camera(const Bounds& bounds);
 /// Gives `scene` framing_camera() and says so in its notes.
 void add_framing_camera(Scene& scene);
 
-/// If neither an object nor the background emits: a dim background and a spherical lamp, with a
-/// note.
+/// If there is no light of any kind, and anything that needs one: a dim background and a spherical
+/// lamp, with a note.
 void add_default_light(Scene& scene);
 
 }  // namespace farlight

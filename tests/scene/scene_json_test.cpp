@@ -132,6 +132,116 @@ TEST(SceneJson, MeshFilesAreReadOnceAndBringTheirMaterials)
     expect_near(world_position(scene, 1, 0), {0, 0, 0});
 }
 
+TEST(SceneJson, MaterialsOfAFileAreReplacedByName)
+{
+    const TempFolder folder;
+    GltfBuilder gltf = triangle_gltf();
+    gltf.document["materials"] = {{{"name", "blue"}}, {{"name", "green"}}};
+    gltf.document["meshes"][0]["primitives"][0]["material"] = 1;
+    gltf.write_glb(folder.path() / "part.glb");
+    const auto material_with = [&](const std::string& materials) {
+        const Scene scene = parse(R"([{"name": "part", "materials": )" + materials
+                + R"(, "mesh": {"file": "part.glb"}}])",
+            folder.path());
+        return scene.materials[scene.objects.at(0).material].name;
+    };
+    EXPECT_EQ(material_with(R"({"green": "grey"})"), "grey");
+    EXPECT_EQ(material_with(R"({"blue": "grey"})"), "green");
+    EXPECT_THROW(material_with(R"({"red": "grey"})"), SceneError);
+    EXPECT_THROW(material_with(R"({"green": "none"})"), SceneError);
+}
+
+TEST(SceneJson, MeshesMayBeShared)
+{
+    const Scene scene = parse_scene(R"({"version": 1, "materials": {"m": {}},
+        "meshes": {"leaf": {"positions": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], "triangles": [[0, 1, 2]],
+            "uvs": [[0, 0], [1, 0], [0, 1]], "uvs_1": [[0.5, 0], [1, 0], [0, 1]],
+            "tangents": [[1, 0, 0, -1], [1, 0, 0, -1], [1, 0, 0, -1]],
+            "colors": [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 0.5]]}},
+        "objects": [{"material": "m", "mesh": {"instance_of": "leaf"}},
+                    {"material": "m", "mesh": {"instance_of": "leaf", "translation": [1, 2, 3]}}]})",
+        ".", "test.json");
+    ASSERT_EQ(scene.meshes.size(), 1U);
+    const Mesh& leaf = scene.meshes[0];
+    EXPECT_THAT(leaf.uvs[0], ElementsAre(glm::vec2(0), glm::vec2(1, 0), glm::vec2(0, 1)));
+    EXPECT_EQ(leaf.uvs[1][0], glm::vec2(0.5, 0));
+    EXPECT_EQ(leaf.tangents[0], glm::vec4(1, 0, 0, -1));
+    EXPECT_EQ(leaf.colors[2], glm::vec4(0, 0, 1, 0.5));
+    expect_near(world_position(scene, 1, 0), {1, 2, 3});
+}
+
+TEST(SceneJson, TexturedBoxesHaveAnUprightPictureOnEachFace)
+{
+    const Scene scene = parse_scene(R"({"version": 1, "materials": {"m": {"albedo_texture":
+        {"file": "letter.png"}}, "plain": {}},
+        "objects": [{"material": "m", "box": {"lower": [0, 0, 0], "upper": [1, 1, 1]}},
+                    {"material": "plain", "box": {"lower": [0, 0, 0], "upper": [1, 1, 1]}}]})",
+        std::filesystem::path(FARLIGHT_SOURCE_DIR) / "scenes", "test.json");
+    ASSERT_EQ(scene.meshes.size(), 2U);
+    EXPECT_TRUE(scene.meshes[1].uvs[0].empty());
+    const Mesh& cube = scene.meshes[0];
+    ASSERT_EQ(cube.triangles.size(), 12U);
+    for (const glm::uvec3& t : cube.triangles) {
+        const glm::vec3 a = cube.positions[t.x];
+        const glm::vec3 u = cube.positions[t.y] - a;
+        const glm::vec3 v = cube.positions[t.z] - a;
+        const glm::vec3 normal = glm::cross(u, v);
+        EXPECT_GT(glm::dot(normal, a + cube.positions[t.y] + cube.positions[t.z]), 0);
+        // Seen from outside u runs to the right and v down, so that uv triangles turn clockwise.
+        const glm::vec2 du = cube.uvs[0][t.y] - cube.uvs[0][t.x];
+        const glm::vec2 dv = cube.uvs[0][t.z] - cube.uvs[0][t.x];
+        EXPECT_LT(du.x * dv.y - du.y * dv.x, 0);
+        if (std::abs(normal.y) > 0.5F)
+            continue;
+        for (int corner = 0; corner < 3; ++corner)  // v = 0 is on top of the sides
+            EXPECT_EQ(cube.uvs[0][t[corner]].y, 0.5F - cube.positions[t[corner]].y);
+    }
+}
+
+TEST(SceneJson, LightsFogAndLensKeepTheirNumbers)
+{
+    const Scene scene = parse_scene(R"({"version": 1, "materials": {"m": {}},
+        "objects": {"b": {"material": "m", "disk": {"center": [1, 2, 3], "normal": [0, 0, 5], "radius": 4}},
+                    "a": {"material": "m", "sphere": {"center": [0, 0, 0], "radius": 1}}},
+        "fog": {"name": "haze", "absorption": [1, 2, 3], "scattering": [4, 5, 6], "g": -0.5},
+        "lights": {"lamp": {"intensity": [1, 2, 3], "spot": {"position": [4, 5, 6],
+                       "direction": [0, -3, 0], "inner_cone_degrees": 10, "outer_cone_degrees": 20}},
+                   "bulb": {"intensity": [7, 8, 9], "point": {"position": [1, 1, 1]}},
+                   "sun": {"intensity": [3, 2, 1], "directional": {"direction": [2, 0, 0]}}},
+        "camera": {"position": [0, 0, 9], "target": [0, 0, 0], "lens_radius": 0.25, "focus_distance": 7}})",
+        ".", "test.json");
+    EXPECT_EQ(scene.objects[0].name, "a");  // objects by name come in the order of their names
+    EXPECT_EQ(std::get<Disk>(scene.objects[1].shape).normal, glm::dvec3(0, 0, 1));
+    EXPECT_EQ(std::get<Disk>(scene.objects[1].shape).radius, 4);
+    EXPECT_EQ(scene.medium, (Medium{"haze", {1, 2, 3}, {4, 5, 6}, -0.5F}));
+    EXPECT_EQ(scene.lens, (Lens{0.25, 7}));
+    ASSERT_EQ(scene.lights.size(), 3U);
+    EXPECT_EQ(scene.lights[0].name, "bulb");
+    EXPECT_EQ(scene.lights[0].kind, PunctualLight::Kind::kPoint);
+    EXPECT_EQ(scene.lights[0].intensity, glm::vec3(7, 8, 9));
+    EXPECT_EQ(scene.lights[1].kind, PunctualLight::Kind::kSpot);
+    EXPECT_EQ(scene.lights[1].position, glm::dvec3(4, 5, 6));
+    EXPECT_EQ(scene.lights[1].direction, glm::dvec3(0, -1, 0));
+    EXPECT_DOUBLE_EQ(scene.lights[1].inner_cone, glm::radians(10.0));
+    EXPECT_DOUBLE_EQ(scene.lights[1].outer_cone, glm::radians(20.0));
+    EXPECT_EQ(scene.lights[2].kind, PunctualLight::Kind::kDirectional);
+    EXPECT_EQ(scene.lights[2].direction, glm::dvec3(1, 0, 0));
+}
+
+TEST(SceneJson, AnEnvironmentIsTurnedAndScaled)
+{
+    const Scene scene = parse_scene(R"({"version": 1, "materials": {"m": {}},
+        "objects": [{"material": "m", "sphere": {"center": [0, 0, 0], "radius": 1}}],
+        "environment": {"file": "linear_sky.exr", "scale": [1, 2, 3], "rotation_degrees": [0, 90, 0]}})",
+        std::filesystem::path(FARLIGHT_SOURCE_DIR) / "scenes", "test.json");
+    ASSERT_NE(scene.environment, nullptr);
+    EXPECT_EQ(scene.environment->height, 32U);
+    EXPECT_EQ(scene.background, glm::vec3(1, 2, 3));
+    // Turned by 90 degrees about y, the map's middle, -z, lies along -x.
+    const glm::vec3 in_map = scene.map_from_world * glm::vec3(-1, 0, 0);
+    EXPECT_LT(glm::length(in_map - glm::vec3(0, 0, -1)), 1e-6F);
+}
+
 TEST(SceneJson, AFileThatDoesNotLoadNamesBothFiles)
 {
     const TempFolder folder;
