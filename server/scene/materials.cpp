@@ -19,7 +19,7 @@ std::uint32_t flags_of(const Material& material)
     return flags;
 }
 
-void pack(const Material& m, glm::uvec4* texels)
+void pack(const Material& m, const TextureLayout& textures, glm::uvec4* texels)
 {
     texels[MATERIAL_ALBEDO] = texel(m.albedo, flags_of(m));
     texels[MATERIAL_EMISSION] = texel(m.emission, bits(m.opacity));
@@ -29,15 +29,25 @@ void pack(const Material& m, glm::uvec4* texels)
     texels[MATERIAL_INSIDE] = texel(m.absorption, static_cast<std::uint32_t>(m.priority));
     texels[MATERIAL_COAT] = glm::floatBitsToUint(
         glm::vec4(m.clearcoat, m.clearcoat_roughness, m.normal_scale, m.alpha_cutoff));
+    // each_texture() visits them in the order of MAP_*.
+    std::uint32_t map = 0;
+    each_texture(m, [&](const Texture& texture, TexelSpace space) {
+        const PackedTexture reference = textures.packed(texture, space);
+        std::copy(reference.begin(), reference.end(),
+            texels + MATERIAL_TEXTURES + static_cast<std::ptrdiff_t>(map * TEXTURE_TEXELS));
+        if (texture.used())
+            texels[MATERIAL_ALBEDO].w |= 1U << (MATERIAL_MAP_SHIFT + map);
+        ++map;
+    });
 }
 
 }  // namespace
 
-Texels pack_materials(const std::vector<Material>& materials)
+Texels pack_materials(const std::vector<Material>& materials, const TextureLayout& textures)
 {
     Texels texels(materials.size() * MATERIAL_TEXELS);
     for (std::size_t i = 0; i < materials.size(); ++i)
-        pack(materials[i], &texels[i * MATERIAL_TEXELS]);
+        pack(materials[i], textures, &texels[i * MATERIAL_TEXELS]);
     return texels;
 }
 

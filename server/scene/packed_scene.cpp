@@ -108,7 +108,7 @@ PackedScene pack_scene(const Scene& scene, const TextureLimits& limits)
     packed.stack_depth = bvh.stack_depth;
     packed.geometry =
         pack_geometry(scene, flat, bvh.order, attributes_for(mask_of(packed.effects)));
-    packed.materials = pack_materials(scene.materials);
+    packed.materials = pack_materials(scene.materials, packed.textures);
     if (scatters_roughly(scene.materials))
         packed.reflection_albedo = reflection_albedo_table();
     if (mask_of(packed.effects).has("FX_ROUGH_DIELECTRIC"))

@@ -1,7 +1,9 @@
 // A material at a point of a surface: constants times textures, and the shading normal after the normal map.
 #pragma once
 #include "geometry/surface.glsl"
+#include "materials/normal_map.glsl"
 #include "materials/shaded_material.glsl"
+#include "textures/texture.glsl"
 
 // How textures are read: at the first hit filtered, later one random texel whose mean is the filtered value.
 struct TextureLookup {
@@ -10,50 +12,144 @@ struct TextureLookup {
     vec3 u;  // random numbers of a stochastic look-up
 };
 
+// A material on its way from constants to what is seen.
+struct MaterialDraft {
+    uint flags;
+    vec3 albedo;
+    vec3 emission;
+    float metallic;
+    float roughness;
+    float specular;
+    vec3 specular_color;
+    float transmission;
+    float clearcoat;
+    float clearcoat_roughness;
+    vec3 normal;  // in tangent space
+    vec3 clearcoat_normal;
+};
+
 vec4 material_texel(uint material, int which)
 {
     return uintBitsToFloat(texelFetch(materials, int(material) * MATERIAL_TEXELS + which));
 }
 
-// GGX alpha of a constant perceptual roughness.
-float alpha_of(float roughness) { return roughness > MIRROR_ROUGHNESS ? roughness * roughness : 0.0; }
+bool has_map(uint flags, int map) { return ((flags >> MATERIAL_MAP_SHIFT) & (1u << map)) != 0u; }
+
+#ifdef FX_TEXTURES
+vec4 look_up(Surface s, int map, TextureLookup l)
+{
+    const int at = int(s.material) * MATERIAL_TEXELS + MATERIAL_TEXTURES + map * TEXTURE_TEXELS;
+    const TextureRef t = unpack_texture(texelFetch(materials, at), texelFetch(materials, at + 1));
+    const vec2 uv = t.uv_set == 0 ? s.uv[0] : s.uv[1];
+    const float lod = l.log2_width + (t.uv_set == 0 ? s.log2_uv_per_metre.x : s.log2_uv_per_metre.y);
+    if (l.stochastic)
+        return texture_stochastic(t, uv, lod, l.u);
+    return texture_filtered(t, uv, lod);
+}
+
+// One texture's part. Only what is compiled reaches the material.
+void apply_map(inout MaterialDraft d, int map, vec4 texel, float normal_scale)
+{
+    d.albedo *= map == MAP_ALBEDO ? texel.rgb : vec3(1.0);
+    d.emission *= map == MAP_EMISSION ? texel.rgb : vec3(1.0);
+    d.specular_color *= map == MAP_SPECULAR_COLOR ? texel.rgb : vec3(1.0);
+    d.roughness *= map == MAP_METALLIC_ROUGHNESS ? texel.g : 1.0;
+    d.metallic *= map == MAP_METALLIC_ROUGHNESS ? texel.b : 1.0;
+    d.specular *= map == MAP_SPECULAR ? texel.a : 1.0;
+    d.transmission *= map == MAP_TRANSMISSION ? texel.r : 1.0;
+    d.clearcoat *= map == MAP_CLEARCOAT ? texel.r : 1.0;
+    d.clearcoat_roughness *= map == MAP_CLEARCOAT_ROUGHNESS ? texel.g : 1.0;
+#ifdef FX_NORMAL_MAPS
+    d.normal = map == MAP_NORMAL ? decoded_normal(texel.rgb, normal_scale) : d.normal;
+    d.clearcoat_normal = map == MAP_CLEARCOAT_NORMAL ? decoded_normal(texel.rgb, 1.0) : d.clearcoat_normal;
+#endif
+}
+
+// A loop over the textures that the material has, which on most is none.
+void apply_maps(inout MaterialDraft d, Surface s, TextureLookup lookup, float normal_scale)
+{
+    uint left = d.flags >> MATERIAL_MAP_SHIFT;
+    while (left != 0u) {
+        const int map = findLSB(left);
+        left &= left - 1u;
+        apply_map(d, map, look_up(s, map, lookup), normal_scale);
+    }
+}
+#endif
+
+// GGX alpha, 0 for a mirror. What a texture says is never that sharp.
+float alpha_of(float roughness, bool textured)
+{
+    const float sharp = textured ? GGX_ALPHA_MIN : 0.0;
+    return roughness > MIRROR_ROUGHNESS ? roughness * roughness : sharp;
+}
+
+MaterialDraft drafted(Surface s, TextureLookup lookup)
+{
+    const vec4 albedo = material_texel(s.material, MATERIAL_ALBEDO);
+    const vec4 base = material_texel(s.material, MATERIAL_BASE);
+    const vec4 specular = material_texel(s.material, MATERIAL_SPECULAR);
+    const vec4 coat = material_texel(s.material, MATERIAL_COAT);
+    MaterialDraft d;
+    d.flags = floatBitsToUint(albedo.w);
+    d.albedo = albedo.rgb;
+    d.emission = material_texel(s.material, MATERIAL_EMISSION).rgb;
+    d.metallic = base.x;
+    d.roughness = base.y;
+    d.specular = base.z;
+    d.specular_color = specular.rgb;
+    d.transmission = specular.w;
+    d.clearcoat = coat.x;
+    d.clearcoat_roughness = coat.y;
+    d.normal = d.clearcoat_normal = vec3(0.0, 0.0, 1.0);
+#ifdef FX_VERTEX_COLORS
+    d.albedo *= s.color.rgb;
+#endif
+#ifdef FX_TEXTURES
+    apply_maps(d, s, lookup, coat.z);
+#endif
+    return d;
+}
 
 // The material of surface `s` seen along unit `wo`, which points away from the surface.
 ShadedMaterial material_at(Surface s, vec3 wo, TextureLookup lookup)
 {
-    const uint material = s.material;
-    const vec4 albedo = material_texel(material, MATERIAL_ALBEDO);
-    const uint flags = floatBitsToUint(albedo.w);
+    const MaterialDraft d = drafted(s, lookup);
     ShadedMaterial m;
-    m.albedo = albedo.rgb;
-    const bool emits = s.front || (flags & MATERIAL_EMITS_BOTH_SIDES) != 0u;
-    m.emission = emits ? material_texel(material, MATERIAL_EMISSION).rgb : vec3(0.0);
+    m.albedo = d.albedo;
+    m.emission = s.front || (d.flags & MATERIAL_EMITS_BOTH_SIDES) != 0u ? d.emission : vec3(0.0);
     m.shading_normal = s.shading_normal;
+#ifdef FX_NORMAL_MAPS
+    if (has_map(d.flags, MAP_NORMAL))
+        m.shading_normal = bent_normal(mapped_normal(s, d.normal), s.geometric_normal, wo);
+#endif
 #ifdef FX_UNLIT
-    m.unlit = (flags & MATERIAL_UNLIT) != 0u;
+    m.unlit = (d.flags & MATERIAL_UNLIT) != 0u;
     m.emission += m.unlit ? m.albedo : vec3(0.0);
 #endif
 #if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC)
-    const vec4 base = material_texel(material, MATERIAL_BASE);
-    const vec4 specular = material_texel(material, MATERIAL_SPECULAR);
-    m.metallic = base.x;
-    m.alpha = alpha_of(base.y);
-    m.specular = base.z;
-    m.ior = base.w;
-    m.specular_color = specular.rgb;
+    m.metallic = d.metallic;
+    m.alpha = alpha_of(d.roughness, has_map(d.flags, MAP_METALLIC_ROUGHNESS));
+    m.specular = d.specular;
+    m.ior = material_texel(s.material, MATERIAL_BASE).w;
+    m.specular_color = d.specular_color;
 #endif
 #ifdef FX_DIELECTRIC
-    const vec4 inside = material_texel(material, MATERIAL_INSIDE);
-    m.transmission = specular.w;
-    m.thin_walled = (flags & MATERIAL_THIN_WALLED) != 0u;
+    const vec4 inside = material_texel(s.material, MATERIAL_INSIDE);
+    m.transmission = d.transmission;
+    m.thin_walled = (d.flags & MATERIAL_THIN_WALLED) != 0u;
     m.absorption = inside.rgb;
     m.priority = floatBitsToInt(inside.w);
 #endif
 #ifdef FX_CLEARCOAT
-    const vec4 coat = material_texel(material, MATERIAL_COAT);
-    m.clearcoat = coat.x;
-    m.clearcoat_alpha = alpha_of(coat.y);
+    // A coat is on the outside.
+    m.clearcoat = s.front || !is_transparent(m) ? d.clearcoat : 0.0;
+    m.clearcoat_alpha = alpha_of(d.clearcoat_roughness, has_map(d.flags, MAP_CLEARCOAT_ROUGHNESS));
     m.clearcoat_normal = s.shading_normal;
+#ifdef FX_NORMAL_MAPS
+    if (has_map(d.flags, MAP_CLEARCOAT_NORMAL))
+        m.clearcoat_normal = bent_normal(mapped_normal(s, d.clearcoat_normal), s.geometric_normal, wo);
+#endif
 #endif
     return m;
 }

@@ -28,3 +28,12 @@ struct ShadedMaterial {
     vec3 clearcoat_normal;  // unit, world space, on the viewer's side
 #endif
 };
+
+bool is_transparent(ShadedMaterial m)
+{
+#ifdef FX_DIELECTRIC
+    return m.transmission > 0.0;
+#else
+    return false;
+#endif
+}

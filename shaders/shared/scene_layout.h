@@ -53,13 +53,29 @@
 #define TEXTURE_TEXELS 2
 
 // Texels of a material.
-#define MATERIAL_TEXELS 6
+#define MATERIAL_TEXELS (6 + MATERIAL_MAPS * TEXTURE_TEXELS)
 #define MATERIAL_ALBEDO 0    // albedo.rgb; MATERIAL_* flags
 #define MATERIAL_EMISSION 1  // emission.rgb; opacity
 #define MATERIAL_BASE 2      // metallic; roughness, perceptual; specular; ior
 #define MATERIAL_SPECULAR 3  // specular_color.rgb; transmission
 #define MATERIAL_INSIDE 4    // absorption.rgb; priority, as a signed integer
 #define MATERIAL_COAT 5      // clearcoat; clearcoat_roughness; normal_scale; alpha_cutoff
+
+#define MATERIAL_TEXTURES 6  // texture references, in the order of MAP_*
+
+// A material's textures. Bit MATERIAL_MAP_SHIFT + MAP_* of the flags is set for each that there is.
+#define MATERIAL_MAPS 10
+#define MAP_ALBEDO 0
+#define MAP_EMISSION 1
+#define MAP_SPECULAR_COLOR 2
+#define MAP_METALLIC_ROUGHNESS 3
+#define MAP_NORMAL 4
+#define MAP_SPECULAR 5
+#define MAP_TRANSMISSION 6
+#define MAP_CLEARCOAT 7
+#define MAP_CLEARCOAT_ROUGHNESS 8
+#define MAP_CLEARCOAT_NORMAL 9
+#define MATERIAL_MAP_SHIFT 16
 
 // Flags of a material.
 #define MATERIAL_EMITS_BOTH_SIDES 1u
