@@ -35,8 +35,6 @@ public:
     {
         if (gltf_.list("scenes").empty())
             refuse(root_ / "scenes", "no scene", "at least one scene");
-        if (gltf_.list("meshes").empty())
-            refuse(root_ / "meshes", "no mesh", "at least one mesh");
         each("bufferViews", &Checker::check_buffer_view);
         each("accessors", &Checker::check_accessor);
         each("meshes", &Checker::check_mesh);

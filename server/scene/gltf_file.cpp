@@ -71,7 +71,7 @@ void Reader::read_objects()
     for (const GltfNode& node : tree_.nodes)
         objects.add(node);
     if (scene().objects.empty())
-        refuse(root_ / "scenes", "no mesh of triangles in the scene's nodes", "at least one");
+        refuse(root_ / "scenes", "no mesh in the scene's nodes", "at least one");
     read_gltf_animations(gltf_, rig_, objects.by_node(), scene());
     objects.add_notes();
 }

@@ -2,6 +2,7 @@
 #include "server/scene/gltf_mesh.h"
 
 #include "server/scene/gltf_accessor.h"
+#include "server/scene/gltf_strokes.h"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,7 @@ std::vector<glm::uvec3> assemble(const std::vector<std::uint32_t>& corners, int 
 void check_corners(const std::vector<std::uint32_t>& corners, std::size_t positions, int mode,
     const ScenePlace& place)
 {
-    if (corners.size() < 3)
+    if (corners.size() < 3 && !is_strokes(mode))
         refuse(place, std::to_string(corners.size()) + " corners", "at least one triangle");
     if (mode == kTriangles && corners.size() % 3 != 0)
         refuse(place, std::to_string(corners.size()) + " corners", "a multiple of 3");
@@ -146,9 +147,9 @@ void keep_strongest_joints(
 
 }  // namespace
 
-bool has_triangles(const Json& primitive)
+bool has_strokes(const Json& primitive)
 {
-    return primitive.value("mode", kTriangles) >= kTriangles;
+    return is_strokes(primitive.value("mode", kTriangles));
 }
 
 Mesh read_gltf_primitive(
@@ -169,7 +170,10 @@ Mesh read_gltf_primitive(
     }
     check_corners(corners, mesh.positions.size(), mode,
         indexed ? place / "indices" : place / "attributes" / "POSITION");
-    mesh.triangles = assemble(corners, mode);
+    if (is_strokes(mode))
+        mesh = strokes_as_solids(mesh, corners, mode);
+    else
+        mesh.triangles = assemble(corners, mode);
     const MeshRepairs made = repair_mesh(mesh);
     if (mesh.triangles.empty()) {
         std::string found = "no triangle that is left";

@@ -143,10 +143,8 @@ std::vector<GltfObjects::Part>& GltfObjects::parts_of(std::size_t mesh)
         return entry->second;
     const Json& found = gltf_.list("meshes")[mesh];
     for (std::size_t i = 0; i < found["primitives"].size(); ++i) {
-        if (has_triangles(found["primitives"][i]))
-            entry->second.push_back(read_part(found, i, gltf_.root / "meshes" / mesh));
-        else
-            ++skipped_primitives_;
+        strokes_ += has_strokes(found["primitives"][i]) ? 1 : 0;
+        entry->second.push_back(read_part(found, i, gltf_.root / "meshes" / mesh));
     }
     return entry->second;
 }
@@ -183,9 +181,9 @@ void GltfObjects::add_notes() const
 {
     for (std::string& note : repairs_.notes())
         scene_.notes.push_back(std::move(note));
-    if (skipped_primitives_ > 0)
+    if (strokes_ > 0)
         scene_.notes.push_back(
-            std::to_string(skipped_primitives_) + " primitives of points or lines left out");
+            std::to_string(strokes_) + " primitives of points or lines drawn as thin solids");
     if (flat_instances_ > 0)
         scene_.notes.push_back(
             std::to_string(flat_instances_) + " objects left out: a scale of 0 makes them flat");

@@ -46,7 +46,7 @@ private:
     std::optional<std::uint32_t> default_material_;
     ObjectsOfNode by_node_;
     MeshRepairs repairs_;
-    std::size_t skipped_primitives_ = 0;  // points and lines
+    std::size_t strokes_ = 0;  // primitives of points or lines
     std::size_t flat_instances_ = 0;  // whose transform has no volume
 };
 

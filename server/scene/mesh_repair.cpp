@@ -13,12 +13,6 @@ namespace farlight {
 
 namespace {
 
-bool bounded(const glm::vec3& p)
-{
-    return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate
-        && std::abs(p.z) <= kLargestCoordinate;  // false for NaN
-}
-
 /// Twice the area times the unit normal; zero where the corners lie on a line as far as float
 /// positions can tell.
 glm::dvec3 area_vector(const Mesh& mesh, const glm::uvec3& triangle)
@@ -127,7 +121,7 @@ std::size_t repair_displacements(std::vector<glm::vec3>& displacements)
 {
     std::size_t dropped = 0;
     for (glm::vec3& displacement : displacements)
-        if (!bounded(displacement)) {
+        if (!is_bounded(displacement)) {
             displacement = glm::vec3(0);
             ++dropped;
         }
@@ -135,6 +129,12 @@ std::size_t repair_displacements(std::vector<glm::vec3>& displacements)
 }
 
 }  // namespace
+
+bool is_bounded(const glm::vec3& p)
+{
+    return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate
+        && std::abs(p.z) <= kLargestCoordinate;  // false for NaN
+}
 
 MeshRepairs& MeshRepairs::operator+=(const MeshRepairs& other)
 {
@@ -183,8 +183,8 @@ MeshRepairs repair_mesh(Mesh& mesh)
     kept.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles) {
         assert(std::max({triangle.x, triangle.y, triangle.z}) < mesh.positions.size());
-        if (!bounded(mesh.positions[triangle.x]) || !bounded(mesh.positions[triangle.y])
-            || !bounded(mesh.positions[triangle.z]))
+        if (!is_bounded(mesh.positions[triangle.x]) || !is_bounded(mesh.positions[triangle.y])
+            || !is_bounded(mesh.positions[triangle.z]))
             ++repairs.unbounded_triangles;
         else if (area_vector(mesh, triangle) == glm::dvec3(0))
             ++repairs.zero_area_triangles;

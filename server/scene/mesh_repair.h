@@ -11,6 +11,9 @@ namespace farlight {
 /// within the 1e12 of the protocol.
 inline constexpr double kLargestCoordinate = 1e11;
 
+/// Finite, and within kLargestCoordinate on each axis.
+bool is_bounded(const glm::vec3& p);
+
 struct MeshRepairs {
     std::size_t zero_area_triangles = 0;  ///< Dropped.
     std::size_t unbounded_triangles = 0;  ///< Dropped: a corner is not finite or too far out.

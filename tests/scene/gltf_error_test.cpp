@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Document, BadGltfTest,
         BadGltf{"WrongScene", "/scene", "1",
             "/scene: found index 1, expected less than 1, the number of scenes"},
         BadGltf{"SceneOfNothing", "/scenes/0/nodes", "[]",
-            "/scenes: found no mesh of triangles in the scene's nodes, expected at least one"},
+            "/scenes: found no mesh in the scene's nodes, expected at least one"},
         BadGltf{"WrongRoot", "/scenes/0/nodes", "[4]",
             "/scenes/0/nodes/0: found index 4, expected less than 1, the number of nodes"}),
     kName);
@@ -112,8 +112,8 @@ INSTANTIATE_TEST_SUITE_P(Bytes, BadGltfTest,
     kName);
 
 INSTANTIATE_TEST_SUITE_P(Meshes, BadGltfTest,
-    testing::Values(
-        BadGltf{"NoMeshes", "/meshes", "[]", "/meshes: found no mesh, expected at least one mesh"},
+    testing::Values(BadGltf{"NoMeshes", "/meshes", "[]",
+                        "/nodes/0/mesh: found index 0, expected less than 0, the number of meshes"},
         BadGltf{"NoPrimitives", "/meshes/0/primitives", "[]",
             "/meshes/0/primitives: found an empty array, expected an array of at least one "
             "primitive"},
