@@ -78,6 +78,7 @@ float dielectric_albedo_at(float cos_o, float alpha, float eta)
     const int at = k * cells + j * (DIELECTRIC_NODES - 1) + i;
     const float lower = table_value(texelFetch(dielectric_albedo, at), x, y);
     const float upper = table_value(texelFetch(dielectric_albedo, at + cells), x, y);
-    return mix(lower, upper, z);
+    precise const float albedo = mix(lower, upper, z);
+    return albedo > 0.0 ? albedo : 1.0;
 }
 #endif
