@@ -12,26 +12,22 @@ struct Signals {
     TextureHandle direct;  ///< Diffuse, without the surface's albedo.
     TextureHandle indirect;  ///< Likewise.
     TextureHandle specular;  ///< Without its reflectance; only in scenes with something specular.
+    TextureHandle shown;  ///< What the specular signal shows, to compare pixels by.
     TextureHandle scattered;  ///< On the way to the surface; only in fog.
 };
-
-/// The signals the scene has, as textures called `prefix`.direct and so on.
-inline Signals create_signals(
-    FrameGraph& graph, const FrameInputs& inputs, const std::string& prefix)
-{
-    Signals signals{graph.create(prefix + ".direct", GL_RGBA32F),
-        graph.create(prefix + ".indirect", GL_RGBA32F), {}, {}};
-    if (inputs.has_specular())
-        signals.specular = graph.create(prefix + ".specular", GL_RGBA32F);
-    if (inputs.has_fog())
-        signals.scattered = graph.create(prefix + ".scattered", GL_RGBA32F);
-    return signals;
-}
 
 inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, const GBuffer& gbuffer,
     const RenderSettings& settings)
 {
-    const Signals signals = create_signals(graph, inputs, "path_trace");
+    Signals signals;
+    signals.direct = graph.create("path_trace.direct", GL_RGBA32F);
+    signals.indirect = graph.create("path_trace.indirect", GL_RGBA32F);
+    if (inputs.has_specular()) {
+        signals.specular = graph.create("path_trace.specular", GL_RGBA32F);
+        signals.shown = graph.create("path_trace.shown", GL_RGBA32UI);
+    }
+    if (inputs.has_fog())
+        signals.scattered = graph.create("path_trace.scattered", GL_RGBA32F);
     Pass& pass = graph.add_pass("path_trace", "path_trace/path_trace.comp")
                      .scene(inputs.scene)
                      .read("in_hit", gbuffer.hit)
@@ -44,7 +40,9 @@ inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, cons
     if (inputs.scene.calls_for("FX_LIGHTS"))
         pass.constant("light_sampling", settings.light_sampling ? 1 : 0);
     if (inputs.has_specular())
-        pass.read("in_reflectance", gbuffer.reflectance).write("out_specular", signals.specular);
+        pass.read("in_reflectance", gbuffer.reflectance)
+            .write("out_specular", signals.specular)
+            .write("out_shown", signals.shown);
     if (inputs.has_fog()) {
         inputs.add_fog_sphere(pass);
         pass.write("out_scattered", signals.scattered)

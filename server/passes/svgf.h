@@ -60,8 +60,10 @@ public:
     }
 
     /// After this, blended(), filtered() and length() are there.
-    void filter(const SignalTextures& noisy)
+    /// `shown`: of the specular signal.
+    void filter(const SignalTextures& noisy, TextureHandle shown = {})
     {
+        shown_ = shown;
         SignalTextures feedback;
         for (const History& past : past_)
             feedback.push_back(past.current);
@@ -154,7 +156,7 @@ private:
                          .read("in_moments", moments_.current)
                          .read("in_length", length_.current)
                          .constant("svgf_spatial_frames", settings_.svgf_spatial_frames);
-        add_edge_constants(pass);
+        add_edges(pass);
     }
 
     /// `iteration` 1, 2, 3, ... filters with taps 1, 2, 4, ... pixels apart.
@@ -163,11 +165,14 @@ private:
         Pass& pass = add_pass("a-trous " + std::to_string(iteration), "svgf/atrous.comp", in, out)
                          .constant("step_size", 1 << (iteration - 1))
                          .constant("sigma_luminance", settings_.sigma_luminance);
-        add_edge_constants(pass);
+        add_edges(pass);
     }
 
-    void add_edge_constants(Pass& pass) const
+    /// What the weights between two pixels look at, beyond what every pass does.
+    void add_edges(Pass& pass) const
     {
+        if (is(specular_kind()))
+            pass.read("in_shown", shown_);
         if (!is(scattered_kind()))
             pass.constant("sigma_depth", settings_.sigma_depth)
                 .constant("sigma_normal", settings_.sigma_normal);
@@ -183,6 +188,7 @@ private:
     std::vector<History> past_;
     History moments_;
     History length_;
+    TextureHandle shown_;
     SignalTextures blended_;
     SignalTextures filtered_;
 };
@@ -193,12 +199,14 @@ inline SvgfOutput add_svgf(FrameGraph& graph, const FrameInputs& inputs, const G
     SvgfOutput output;
     SvgfSignal diffuse(graph, inputs, gbuffer, settings, diffuse_kind());
     diffuse.filter({noisy.direct, noisy.indirect});
-    output.blended = {diffuse.blended()[0], diffuse.blended()[1], {}, {}};
-    output.filtered = {diffuse.filtered()[0], diffuse.filtered()[1], {}, {}};
+    output.blended.direct = diffuse.blended()[0];
+    output.blended.indirect = diffuse.blended()[1];
+    output.filtered.direct = diffuse.filtered()[0];
+    output.filtered.indirect = diffuse.filtered()[1];
     output.history_length = diffuse.length();
     if (inputs.has_specular()) {
         SvgfSignal specular(graph, inputs, gbuffer, settings, specular_kind());
-        specular.filter({noisy.specular});
+        specular.filter({noisy.specular}, noisy.shown);
         output.blended.specular = specular.blended()[0];
         output.filtered.specular = specular.filtered()[0];
     }

@@ -4,6 +4,7 @@
 #include "lights/lights.glsl"
 #include "materials/material.glsl"
 #include "bsdf/bsdf.glsl"
+#include "bsdf/interior.glsl"
 
 // Width on the surface of a cone as wide as a pixel [m], log2.
 float log2_cone_width(float width, vec3 normal, vec3 direction)
@@ -32,5 +33,5 @@ bool scatters(ShadedMaterial m)
 // What the diffuse signals are divided by.
 vec3 diffuse_albedo(ShadedMaterial m, Surface s, Ray ray)
 {
-    return scatters(m) ? make_bsdf(m, s.geometric_normal, -ray.direction, 1.0).albedo : vec3(0.0);
+    return scatters(m) ? make_bsdf(m, s.geometric_normal, -ray.direction, opaque_eta(m)).albedo : vec3(0.0);
 }

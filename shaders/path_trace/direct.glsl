@@ -23,8 +23,19 @@ Scattered sample_direct(Vertex v, vec4 u)
     const bool lit = useful && ahead && !any_hit(ray, useful && ahead ? distance : 0.0);
     const float weight = light.delta ? 1.0 : power_heuristic(light.pdf, value.pdf);
     vec3 arriving = light.radiance * (weight / light.pdf);
+#ifdef FX_DIELECTRIC
+    const Interior inside = inside_after(v, dot(v.geometric_normal, light.wi) < 0.0);
+    const vec3 absorption = current_absorption(inside);
+    if (max_component(absorption) > 0.0)
+        arriving *= exp(-absorption * distance);
+#endif
 #ifdef FX_FOG
-    if (fog_present()) {
+#ifdef FX_DIELECTRIC
+    const bool in_air = in_the_open(inside);
+#else
+    const bool in_air = true;
+#endif
+    if (fog_present() && in_air) {
         const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, distance);
         arriving *= fog_transmittance(scene_fog(), span.y - span.x);
     }

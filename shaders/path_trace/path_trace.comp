@@ -7,6 +7,8 @@
 //        out_indirect    rgba32f   diffuse light that met more, likewise without the first surface's albedo
 //        out_specular    rgba32f   light by the first surface's specular lobes, divided by its reflectance;
 //                                  a: mean distance of what they show [m], 0: unknown
+//        out_shown       rgba32ui  what they show, by a sample (svgf/signal.glsl): distance [m] as float bits, 0: unknown;
+//                                  normal, octahedral; albedo, 8 bits a channel
 //        out_scattered   rgba32f   light that the fog before the first surface scatters to the eye
 //
 // Each vertex samples a light and a direction of its BSDF or phase function and combines both by multiple importance
@@ -25,6 +27,7 @@ uniform writeonly image2D out_indirect;
 #ifdef FX_SPECULAR_SIGNAL
 uniform sampler2D in_reflectance;
 uniform writeonly image2D out_specular;
+uniform writeonly uimage2D out_shown;
 #endif
 #ifdef FX_FOG
 uniform writeonly image2D out_scattered;
@@ -41,6 +44,8 @@ struct Gathered {
 #ifdef FX_SPECULAR_SIGNAL
     vec3 specular;
     float distance;  // of what the specular lobes show, beyond mirrors in between too [m]; 0: not seen
+    vec3 normal;     // of that
+    vec3 albedo;
 #endif
 };
 
@@ -51,6 +56,7 @@ Gathered nothing_gathered()
 #ifdef FX_SPECULAR_SIGNAL
     g.specular = vec3(0.0);
     g.distance = 0.0;
+    g.normal = g.albedo = vec3(0.0);
 #endif
     return g;
 }
@@ -118,11 +124,21 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
         const ShadedMaterial m = material_at(s, -ray.direction,
             TextureLookup(log2_cone_width(cone.x, s.geometric_normal, ray.direction), true,
                 random4(px, frame.seed, sample_index, bounce_index, SLOT_TEXTURE).xyz));
+#ifdef FX_DIELECTRIC
+        const Interior inside = inside_after(v, bounce.transmitted);
+        const vec3 absorption = current_absorption(inside);
+        if (max_component(absorption) > 0.0)
+            throughput *= exp(-absorption * (met ? way : T_INFINITY));
+        Vertex there = surface_vertex(s, m, -ray.direction, inside);
+        const bool in_air = in_the_open(inside);
+#else
+        Vertex there = surface_vertex(s, m, -ray.direction);
+        const bool in_air = true;
+#endif
         vec3 found = met ? met_emission(v, bounce, s, m) : met_environment(bounce);
-        Vertex there = surface_vertex(s, m, -ray.direction, 1.0);
         bool goes_on = met && scatters(m);
 #ifdef FX_FOG
-        if (fog_present()) {
+        if (fog_present() && in_air) {
             const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, met ? way : T_INFINITY);
             const FogEvent event
                 = sample_fog(scene_fog(), span.y - span.x, random4(px, frame.seed, sample_index, bounce_index, SLOT_FOG).xy);
@@ -144,8 +160,11 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
             sum.specular += first_specular * arriving;
             distance += met ? way : T_INFINITY;
             follows_mirrors = follows_mirrors && bounce.delta;
-            if (first || follows_mirrors)
-                sum.distance = max_component(first_specular) > 0.0 ? distance : 0.0;
+            if ((first || follows_mirrors) && max_component(first_specular) > 0.0) {
+                sum.distance = distance;
+                sum.normal = met ? m.shading_normal : -ray.direction;
+                sum.albedo = met ? m.albedo : vec3(0.0);
+            }
 #endif
         }
         v = there;
@@ -166,7 +185,11 @@ void main()
     const Surface s = surface_at(hit, ray);
     const ShadedMaterial m = first_material(s, ray);
     const float way = length(s.position - ray.origin);
-    Vertex first = surface_vertex(s, m, -ray.direction, 1.0);
+#ifdef FX_DIELECTRIC
+    Vertex first = surface_vertex(s, m, -ray.direction, outside_of_everything());
+#else
+    Vertex first = surface_vertex(s, m, -ray.direction);
+#endif
     first.bsdf.albedo = vec3(1.0);  // the composite multiplies it back
     const float footprint = frame.camera.pixel_footprint;
 
@@ -184,6 +207,7 @@ void main()
 #ifdef FX_SPECULAR_SIGNAL
     float distance_sum = 0.0;
     float distance_count = 0.0;
+    uvec4 shown = uvec4(0u);
 #endif
     int i = 0;
     while (i < paths) {
@@ -217,6 +241,8 @@ void main()
         sum.specular += g.specular;
         distance_sum += g.distance;
         distance_count += g.distance > 0.0 ? 1.0 : 0.0;
+        if (g.distance > 0.0)
+            shown = uvec4(floatBitsToUint(g.distance), pack_octahedral(g.normal), packUnorm4x8(vec4(g.albedo, 0.0)), 0u);
 #endif
         ++i;
     }
@@ -229,6 +255,7 @@ void main()
     // Beyond ten thousand times the view distance nothing shifts any more.
     const float distance = distance_count > 0.0 ? min(distance_sum / distance_count, 1e4 * way) : 0.0;
     imageStore(out_specular, px, vec4(counted_finite(specular), distance));
+    imageStore(out_shown, px, shown);
 #endif
 #ifdef FX_FOG
     imageStore(out_scattered, px, vec4(counted_finite(scattered * weight), 0.0));

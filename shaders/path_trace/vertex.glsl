@@ -12,6 +12,10 @@ struct Vertex {
     vec3 shading_normal;    // likewise; in fog zero
     vec3 wo;                // unit, back along the path
     Bsdf bsdf;
+#ifdef FX_DIELECTRIC
+    Interior before;  // what the path is inside of where it comes from
+    Interior behind;  // and on the other side of the surface
+#endif
 #ifdef FX_FOG
     bool in_fog;
 #endif
@@ -25,8 +29,20 @@ struct Scattered {
     float pdf;  // of sampling the direction
 };
 
-Vertex surface_vertex(Surface s, ShadedMaterial m, vec3 wo, float eta)
+#ifdef FX_DIELECTRIC
+Vertex surface_vertex(Surface s, ShadedMaterial m, vec3 wo, Interior before)
 {
+    const Boundary boundary = boundary_at(before, m, s.material, s.front);
+    const float eta = boundary.eta;
+    Interior behind = before;
+    cross_boundary(behind, m, s.material, s.front);
+    if (!boundary.real)
+        see_through(m);
+#else
+Vertex surface_vertex(Surface s, ShadedMaterial m, vec3 wo)
+{
+    const float eta = opaque_eta(m);
+#endif
     Vertex v;
     v.position = s.position;
     v.offset = s.offset;
@@ -34,11 +50,29 @@ Vertex surface_vertex(Surface s, ShadedMaterial m, vec3 wo, float eta)
     v.shading_normal = m.shading_normal;
     v.wo = wo;
     v.bsdf = make_bsdf(m, s.geometric_normal, wo, eta);
+#ifdef FX_DIELECTRIC
+    v.before = before;
+    v.behind = behind;
+#endif
 #ifdef FX_FOG
     v.in_fog = false;
 #endif
     return v;
 }
+
+#ifdef FX_DIELECTRIC
+// Fog fills what nothing else does.
+bool in_the_open(Interior interior) { return interior.entered == uvec4(0u); }
+
+// What a path is inside of that leaves the vertex to either side.
+Interior inside_after(Vertex v, bool transmitted)
+{
+    Interior interior = v.before;
+    if (transmitted)
+        interior = v.behind;
+    return interior;
+}
+#endif
 
 #ifdef FX_FOG
 // The vertex at distance t of the ray, made of any other.
@@ -48,6 +82,10 @@ Vertex fog_vertex(Vertex v, Ray ray, float t)
     v.offset = 0.0;
     v.shading_normal = vec3(0.0);
     v.wo = -ray.direction;
+    v.geometric_normal = v.wo;
+#ifdef FX_DIELECTRIC
+    v.before = v.behind = outside_of_everything();
+#endif
     v.in_fog = true;
     return v;
 }

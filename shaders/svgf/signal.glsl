@@ -2,8 +2,8 @@
 //
 //   SIGNAL_DIFFUSE    direct and indirect diffuse light, a pair (in_light, in_light_2) that shares its weights.
 //                     Source: Schied et al. 2017, eq. 3 and 4.
-//   SIGNAL_SPECULAR   light of the specular lobes. As above, and narrower the smoother the surface: a tap may be as far
-//                     away as the lobe is wide. A mirror has no taps at all.
+//   SIGNAL_SPECULAR   light of the specular lobes. As above; besides, two pixels either are no further apart than their
+//                     lobes are wide, or show the same thing: it is as far away, lies alike and has the same colour.
 //   SIGNAL_SCATTERED  light scattered by fog before the first surface: what is beyond the same amount of fog shares
 //                     its light, on surfaces and sky alike.
 #pragma once
@@ -68,28 +68,52 @@ uniform float sigma_normal;
 #ifdef SIGNAL_SPECULAR
 
 layout(rgba32f) readonly uniform image2D in_reflectance;  // a: GGX alpha, negative where nothing is specular
+layout(rgba32ui) readonly uniform uimage2D in_shown;      // what a path found that followed the lobes
 
 struct Guide {
     FilterSurface surface;
     float alpha;
+    float distance;  // of what is shown [m], 0: not known
+    vec3 normal;
+    vec3 albedo;
 };
 
-Guide guide_at(ivec2 q) { return Guide(unpack_surface(imageLoad(in_surface, q)), imageLoad(in_reflectance, q).a); }
+Guide guide_at(ivec2 q)
+{
+    const uvec4 shown = imageLoad(in_shown, q);
+    return Guide(unpack_surface(imageLoad(in_surface, q)), imageLoad(in_reflectance, q).a, uintBitsToFloat(shown.x),
+        unpack_octahedral(shown.y), unpackUnorm4x8(shown.z).rgb);
+}
 
-// A lobe that is narrower than a pixel sees one thing, and its neighbour another.
-bool takes_part(Guide g) { return g.surface.depth > 0.0 && g.alpha >= 0.5 * frame.camera.pixel_footprint; }
+bool takes_part(Guide g) { return g.surface.depth > 0.0 && g.alpha >= 0.0; }
 
 // A lobe is about alpha wide. A normal that turns by x turns what is mirrored by 2x: cos^n x is about
 // exp(-n x^2 / 2), so n = 4 / alpha^2 makes exp(-(2x)^2 / (2 alpha^2)) of it; likewise for the view's own turn from
-// pixel to pixel. Surfaces of another roughness show other things: a tenth of the larger is let through.
+// pixel to pixel. A mirror's lobe is narrower than a pixel: no other looks the same way.
+float lobe_exponent(Guide p, Guide q, vec2 offset)
+{
+    const float width = max(p.alpha, 0.1 * frame.camera.pixel_footprint);
+    const vec2 turn = offset * frame.camera.pixel_footprint / width;
+    return normal_weight_exponent(p.surface.normal, q.surface.normal, max(sigma_normal, 4.0 / (width * width)))
+        + 0.5 * dot(turn, turn);
+}
+
+// Different by a tenth of the way from the eye, by a normal as on surfaces, or by a tenth of white in colour: that is
+// another thing. Where one of the two paths found nothing, four pixels around are good enough.
+float shown_exponent(Guide p, Guide q, vec2 offset)
+{
+    const float way = p.surface.depth + p.distance;
+    const vec3 tint = abs(p.albedo - q.albedo);
+    const float differs = abs(p.distance - q.distance) / (0.1 * way)
+        + normal_weight_exponent(p.normal, q.normal, sigma_normal) + max_component(tint) / 0.1;
+    return p.distance > 0.0 && q.distance > 0.0 ? differs : dot(offset, offset) / (2.0 * 4.0 * 4.0);
+}
+
 float edge_exponent(Guide p, Guide q, vec2 offset)
 {
-    const float reach = p.alpha / frame.camera.pixel_footprint;
-    const float sharper = max(sigma_normal, 4.0 / (p.alpha * p.alpha));
     return depth_weight_exponent(p.surface, q.surface.depth, offset, sigma_depth)
-        + normal_weight_exponent(p.surface.normal, q.surface.normal, sharper)
-        + 0.5 * dot(offset, offset) / (reach * reach)
-        + abs(p.alpha - q.alpha) / (0.1 * max(p.alpha, q.alpha));
+        + min(lobe_exponent(p, q, offset), shown_exponent(p, q, offset))
+        + abs(p.alpha - q.alpha) / (0.1 * max(max(p.alpha, q.alpha), 1e-4));
 }
 
 #else

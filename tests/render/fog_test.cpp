@@ -6,8 +6,6 @@
 #include "tests/support/gl_test.h"
 #include "tests/support/statistics.h"
 
-#include <cstring>
-
 namespace farlight {
 namespace {
 
@@ -116,20 +114,6 @@ INSTANTIATE_TEST_SUITE_P(Fogs, WhiteFogTest,
         WhiteFog{"Coloured", glm::vec3(0.05F, 0.2F, 0.4F), 0.3F, false},
         WhiteFog{"OneChannelClear", glm::vec3(0.2F, 0, 0.1F), 0, false}),
     [](const auto& test) { return test.param.name; });
-
-/// a - b, value by value.
-Image difference_of(const Image& a, Image b)
-{
-    for (std::size_t at = 0; at < b.bytes.size(); at += sizeof(float)) {
-        float x = 0;
-        float y = 0;
-        std::memcpy(&x, &a.bytes[at], sizeof x);
-        std::memcpy(&y, &b.bytes[at], sizeof y);
-        x -= y;
-        std::memcpy(&b.bytes[at], &x, sizeof x);
-    }
-    return b;
-}
 
 double henyey_greenstein(double cosine, double g)
 {

@@ -32,6 +32,19 @@ Estimate mean_of(const Image& image)
     return {mean, std::sqrt(m2 / count / (count / 3))};
 }
 
+Image difference_of(const Image& a, Image b)
+{
+    for (std::size_t at = 0; at < b.bytes.size(); at += sizeof(float)) {
+        float x = 0;
+        float y = 0;
+        std::memcpy(&x, &a.bytes[at], sizeof x);
+        std::memcpy(&y, &b.bytes[at], sizeof y);
+        x -= y;
+        std::memcpy(&b.bytes[at], &x, sizeof x);
+    }
+    return b;
+}
+
 double relative_mse(const Image& image, const Image& reference)
 {
     const std::vector<float> x = floats_of(image);

@@ -16,6 +16,9 @@ struct Estimate {
 /// independent.
 Estimate mean_of(const Image& image);
 
+/// a - b, value by value: for means whose error is not to contain what both pictures show.
+Image difference_of(const Image& a, Image b);
+
 /// Mean over pixels and channels of (x - r)^2 / (r^2 + 0.01).
 double relative_mse(const Image& image, const Image& reference);
 

@@ -1,0 +1,267 @@
+// Materials through the whole renderer: what loses nothing vanishes, glass and mirrors show their
+// closed forms, and the split into signals loses nothing either.
+//
+// Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
+// which a fresh seed would exceed by chance once in 1.7 million.
+#include "tests/support/gl_test.h"
+#include "tests/support/statistics.h"
+
+namespace farlight {
+namespace {
+
+constexpr Extent kExtent{48, 48};
+
+RenderSettings settings_of(int max_depth, int samples)
+{
+    RenderSettings s;
+    s.denoiser = Denoiser::kAccumulate;
+    s.antialiasing = false;
+    s.max_depth = max_depth;
+    s.roulette_depth = 64;
+    s.samples_per_pixel = samples;
+    return s;
+}
+
+Image picture(const TestScene& scene, const RenderSettings& settings)
+{
+    View view(scene.shared);
+    RenderedFrame frame = view.render(linear_request(scene.scene, kExtent, settings));
+    EXPECT_EQ(frame.nonfinite_count, 0U);
+    return std::move(frame.image);
+}
+
+Material white(const char* name)
+{
+    return {name, glm::vec3(1)};
+}
+
+Material metal(float roughness)
+{
+    Material m = white("metal");
+    m.metallic = 1;
+    m.roughness = roughness;
+    return m;
+}
+
+Material plastic(float roughness)
+{
+    Material m = white("plastic");
+    m.specular = 1;
+    m.roughness = roughness;
+    return m;
+}
+
+Material coated(Material m, float roughness)
+{
+    m.clearcoat = 1;
+    m.clearcoat_roughness = roughness;
+    return m;
+}
+
+Material glass(float roughness, bool thin_walled = false)
+{
+    Material m = white("glass");
+    m.specular = 1;
+    m.transmission = 1;
+    m.roughness = roughness;
+    m.thin_walled = thin_walled;
+    return m;
+}
+
+struct Lossless {
+    const char* name;
+    Material material;
+    double tolerance;
+
+    friend void PrintTo(const Lossless& c, std::ostream* out) { *out << c.name; }
+};
+
+class ObjectFurnaceTest : public GlTest, public testing::WithParamInterface<Lossless> { };
+
+/// Under a sky of radiance 1 a ball that loses nothing is not to be seen.
+TEST_P(ObjectFurnaceTest, LosslessBallUnderAWhiteSkyVanishes)
+{
+    const auto& [name, material, tolerance] = GetParam();
+    Scene scene;
+    scene.materials.push_back(material);
+    scene.objects.push_back({"ball", 0, Sphere{{0, 0, 0}, 1}});
+    scene.background = glm::vec3(1);
+    scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 42};
+    const TestScene on_device(scene);
+    const Estimate estimate = mean_of(picture(on_device, settings_of(64, 128)));
+    EXPECT_NEAR(estimate.mean, 1, 5 * estimate.standard_error + tolerance);
+    EXPECT_LT(estimate.standard_error, 0.004);
+}
+
+// The tolerance is that of the tables of albedos behind rough lobes; what needs none is exact.
+INSTANTIATE_TEST_SUITE_P(Materials, ObjectFurnaceTest,
+    testing::Values(Lossless{"Lambert", white("lambert"), 1e-5}, Lossless{"Mirror", metal(0), 1e-5},
+        Lossless{"SmoothMetal", metal(0.1F), 2e-3}, Lossless{"RoughMetal", metal(0.6F), 2e-3},
+        Lossless{"RoughestMetal", metal(1), 2e-3}, Lossless{"SmoothPlastic", plastic(0), 2e-3},
+        Lossless{"RoughPlastic", plastic(0.5F), 2e-3},
+        Lossless{"CoatedLambert", coated(white("base"), 0.1F), 2e-3},
+        Lossless{"CoatedMetal", coated(metal(0.5F), 0), 2e-3}, Lossless{"Glass", glass(0), 1e-4},
+        Lossless{"RoughGlass", glass(0.3F), 2e-3}, Lossless{"RoughestGlass", glass(1), 3e-3},
+        Lossless{"ThinGlass", glass(0, true), 1e-4},
+        Lossless{"ThinRoughGlass", glass(0.4F, true), 2e-3}),
+    [](const auto& test) { return test.param.name; });
+
+/// A wall that shines, seen straight on through a plate; the camera sees a piece of it so small
+/// that all rays meet the plate at a right angle.
+Scene behind_plate(const Material& material, double thickness)
+{
+    Scene scene;
+    scene.materials = {{"light", glm::vec3(0), glm::vec3(1)}, material};
+    scene.objects.push_back({"wall", 0, Quad{{-5, -5, -3}, {10, 0, 0}, {0, 10, 0}}});
+    const glm::dvec3 near(-4, -4, 0);
+    scene.objects.push_back({"front", 1, Quad{near, {8, 0, 0}, {0, 8, 0}}});
+    if (thickness > 0)
+        scene.objects.push_back(
+            {"back", 1, Quad{near - glm::dvec3(0, 0, thickness), {0, 8, 0}, {8, 0, 0}}});
+    scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.5};
+    return scene;
+}
+
+struct Plate {
+    const char* name;
+    bool thin;
+    float absorption;
+    double expected;
+
+    friend void PrintTo(const Plate& plate, std::ostream* out) { *out << plate.name; }
+};
+
+class PlateTest : public GlTest, public testing::WithParamInterface<Plate> { };
+
+// Glass of index 1.5 reflects R = 0.04 at each side. Light that goes to and fro inside adds up to
+// T = (1 - R)^2 A / (1 - R^2 A^2), where A is left after one way through.
+TEST_P(PlateTest, TransmitsWhatItMust)
+{
+    const auto& [name, thin, absorption, expected] = GetParam();
+    Material material = glass(0, thin);
+    material.absorption = glm::vec3(absorption);
+    const TestScene on_device(behind_plate(material, thin ? 0 : 0.7));
+    const Estimate estimate = mean_of(picture(on_device, settings_of(24, 256)));
+    EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 1e-5);
+    EXPECT_LT(estimate.standard_error, 1e-3);
+}
+
+double through_plate(double left)
+{
+    const double r = 0.04;
+    return (1 - r) * (1 - r) * left / (1 - r * r * left * left);
+}
+
+INSTANTIATE_TEST_SUITE_P(Glass, PlateTest,
+    testing::Values(Plate{"Solid", false, 0, through_plate(1)},
+        Plate{"ThinWalled", true, 0, 0.923077},
+        Plate{"Absorbing", false, 1.5F, through_plate(std::exp(-1.5 * 0.7))}),
+    [](const auto& test) { return test.param.name; });
+
+/// A box of mirrors that reflect a fraction, with one wall that shines: every path meets mirrors
+/// until it meets that wall, so each pixel is a power of the fraction.
+TEST_F(GlTest, MirrorsFacingEachOtherMultiplyTheirReflectances)
+{
+    Scene scene;
+    Material mirror = metal(0);
+    mirror.albedo = glm::vec3(0.5F, 0.8F, 1);
+    scene.materials = {{"light", glm::vec3(0), glm::vec3(1), true}, mirror};
+    scene.objects.push_back({"above", 1, Quad{{-50, 1, -50}, {100, 0, 0}, {0, 0, 100}}});
+    scene.objects.push_back({"below", 1, Quad{{-50, -1, -50}, {0, 0, 100}, {100, 0, 0}}});
+    scene.objects.push_back({"end", 0, Quad{{20, -1, -50}, {0, 0, 100}, {0, 2, 0}}});
+    // Looking along x and down by a slope: a reflection every 2 / slope.
+    const double slope = 0.45;
+    scene.camera = {{0, 0, 0}, {1, -slope, 0}, {0, 1, 0}, 0.2};
+    const TestScene on_device(scene);
+    const Image image = picture(on_device, settings_of(16, 1));
+    // Unfolded, the ray is at height -20 * slope = -9 at the end: mirrors at -1, -3, -5, -7 and,
+    // where the ray just reaches -9, the end itself comes first or last.
+    const glm::vec3 middle = pixel(image, kExtent.width / 2, kExtent.height / 4);
+    const double cosine = slope / std::hypot(1, slope);
+    for (int c = 0; c < 3; ++c) {
+        // glTF's conductors: Schlick's approximation from the albedo at a right angle.
+        const double f0 = mirror.albedo[c];
+        const double reflectance = f0 + (1 - f0) * std::pow(1 - cosine, 5);
+        // 0.2 degrees of view change the cosine by up to 1e-3 on the way to this pixel.
+        EXPECT_NEAR(middle[c], std::pow(reflectance, 4), 4e-3);
+    }
+}
+
+/// The same light whether it is met by chance or sampled, on every kind of surface, over several
+/// bounces.
+TEST_F(GlTest, LightSamplingAgreesWithChanceOnAllMaterials)
+{
+    Scene scene;
+    scene.materials = {{"light", glm::vec3(0), glm::vec3(3)}, white("floor"), metal(0.4F),
+        coated(plastic(0.3F), 0.3F), glass(0.4F), glass(0)};
+    scene.materials[1].albedo = glm::vec3(0.5F);
+    scene.objects.push_back({"lamp", 0, Quad{{-2, 3, -2}, {4, 0, 0}, {0, 0, 4}}});
+    scene.objects.push_back({"floor", 1, Quad{{-6, -1, -6}, {0, 0, 12}, {12, 0, 0}}});
+    for (int i = 0; i < 4; ++i)
+        scene.objects.push_back(
+            {"ball", 2U + static_cast<unsigned>(i), Sphere{{-2.7 + 1.8 * i, -0.2, 0}, 0.8}});
+    scene.camera = {{0, 2, 6}, {0, -0.3, 0}, {0, 1, 0}, 50};
+    const TestScene on_device(scene);
+    Image images[2];
+    for (const bool light_sampling : {false, true}) {
+        RenderSettings s = settings_of(5, 512);
+        s.light_sampling = light_sampling;
+        images[light_sampling] = picture(on_device, s);
+    }
+    // The error of the difference: what both pictures show is no noise.
+    const Estimate difference = mean_of(difference_of(images[0], images[1]));
+    EXPECT_NEAR(difference.mean, 0, 5 * difference.standard_error);
+    EXPECT_LT(difference.standard_error, 0.005 * mean_of(images[1]).mean);
+}
+
+/// A picture is the sum of its signals: with the filter off, svgf equals none to the bit, on
+/// everything that has a signal of its own.
+TEST_F(GlTest, SignalsAddUpToThePicture)
+{
+    Scene scene;
+    scene.materials = {{"light", glm::vec3(0), glm::vec3(3)}, white("floor"), metal(0.2F),
+        coated(plastic(0.3F), 0), glass(0)};
+    scene.objects.push_back({"lamp", 0, Quad{{-2, 3, -2}, {4, 0, 0}, {0, 0, 4}}});
+    scene.objects.push_back({"floor", 1, Quad{{-6, -1, -6}, {0, 0, 12}, {12, 0, 0}}});
+    for (int i = 0; i < 3; ++i)
+        scene.objects.push_back(
+            {"ball", 2U + static_cast<unsigned>(i), Sphere{{-2.0 + 2.0 * i, -0.2, 0}, 0.8}});
+    scene.medium.sigma_s = glm::vec3(0.02F);
+    scene.camera = {{0, 2, 6}, {0, -0.3, 0}, {0, 1, 0}, 50};
+    const TestScene on_device(scene);
+    const auto render = [&](Denoiser denoiser) {
+        RenderSettings s;
+        s.denoiser = denoiser;
+        s.atrous_iterations = 0;
+        return picture(on_device, s).bytes;
+    };
+    EXPECT_EQ(render(Denoiser::kSvgf), render(Denoiser::kOff));
+}
+
+/// Where nothing can scatter light, no path is traced and nothing filtered.
+TEST_F(GlTest, NothingIsTracedWhereNothingScatters)
+{
+    Scene black;
+    black.materials = {{"black", glm::vec3(0), glm::vec3(1)}};
+    black.objects.push_back({"ball", 0, Sphere{}});
+    Scene dark;
+    dark.materials = {white("white")};
+    dark.objects.push_back({"ball", 0, Sphere{}});
+    Scene unlit;
+    unlit.materials = {white("sign")};
+    unlit.materials[0].unlit = true;
+    unlit.objects.push_back({"ball", 0, Sphere{}});
+    for (Scene& scene : std::vector<Scene>{black, dark, unlit}) {
+        scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 40};
+        const TestScene on_device(scene);
+        View view(on_device.shared);
+        const Image image = view.render(linear_request(scene, kExtent, {})).image;
+        for (const std::string& pass : view.graph().pass_names())
+            EXPECT_TRUE(pass == "gbuffer" || pass.starts_with("composite")) << pass;
+        const float expected = scene.materials[0].name == "white" ? 0 : 1;
+        EXPECT_EQ(pixel(image, 24, 24), glm::vec3(expected)) << scene.materials[0].name;
+    }
+}
+
+}  // namespace
+}  // namespace farlight
