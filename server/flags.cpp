@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cstdlib>
 #include <iostream>
 
 namespace farlight {
@@ -10,10 +11,34 @@ namespace {
 
 constexpr int kWrongUsage = 2;
 
-/// Everything but the scene and the one-shot questions: the words of the command line.
-void add_options(CLI::App& app, Flags& flags, std::vector<std::string>& settings, std::string& size,
-    std::string& log_level)
+/// $XDG_CACHE_HOME/farlight/programs, else ~/.cache/farlight/programs; nothing where neither is
+/// known.
+std::optional<std::filesystem::path> default_program_folder()
 {
+    const auto variable = [](const char* name) -> std::optional<std::filesystem::path> {
+        const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets any
+        return value == nullptr || *value != '/' ? std::nullopt
+                                                 : std::optional<std::filesystem::path>(value);
+    };
+    if (const auto cache = variable("XDG_CACHE_HOME"))
+        return *cache / "farlight" / "programs";
+    if (const auto home = variable("HOME"))
+        return *home / ".cache" / "farlight" / "programs";
+    return std::nullopt;
+}
+
+/// What CLI11 leaves as text.
+struct Texts {
+    std::vector<std::string> settings;
+    std::string size;
+    std::string log_level = "info";
+    std::string program_cache;
+};
+
+/// Everything but the scene and the one-shot questions: the words of the command line.
+void add_options(CLI::App& app, Flags& flags, Texts& texts)
+{
+    auto& [settings, size, log_level, program_cache] = texts;
     app.add_option("--scene", flags.scene, "Farlight scene (.json) or glTF 2.0 (.gltf, .glb)");
     app.add_option("--device", flags.renderer.device,
            "auto (first hardware device, else software), software, gpu or gpu:N")
@@ -27,6 +52,9 @@ void add_options(CLI::App& app, Flags& flags, std::vector<std::string>& settings
     app.add_option("--allow-origin", flags.stream.allowed_origins,
            "also let pages of this origin connect, as https://example.org; repeatable, * for all")
         ->allow_extra_args(false);
+    app.add_option("--program-cache", program_cache,
+           "folder that keeps compiled programs from one run to the next; off: none")
+        ->default_str("$XDG_CACHE_HOME/farlight/programs");
     app.add_option("--max-clients", flags.stream.max_clients, "connections served at once")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
@@ -37,9 +65,13 @@ void add_options(CLI::App& app, Flags& flags, std::vector<std::string>& settings
 }
 
 /// Turns the texts that CLI11 knows nothing about into values. Throws CLI::ValidationError.
-void apply(Flags& flags, const std::vector<std::string>& settings, const std::string& size,
-    const std::string& log_level)
+void apply(Flags& flags, const Texts& texts)
 {
+    const auto& [settings, size, log_level, program_cache] = texts;
+    if (program_cache.empty())
+        flags.renderer.program_folder = default_program_folder();
+    else if (program_cache != "off")
+        flags.renderer.program_folder = program_cache;
     flags.log_level = spdlog::level::from_str(log_level);
     if (!size.empty()) {
         flags.renderer.extent = parse_extent(size);
@@ -77,16 +109,14 @@ std::optional<Extent> parse_extent(std::string_view text)
 std::variant<Flags, int> parse_flags(int argc, const char* const* argv)
 {
     Flags flags;
-    std::vector<std::string> settings;
-    std::string size;
-    std::string log_level = "info";
+    Texts texts;
     CLI::App app(
         "Path-traces a scene and streams it to browsers and command lines.", "farlight-server");
     app.set_version_flag("--version", "farlight-server " FARLIGHT_VERSION);
-    add_options(app, flags, settings, size, log_level);
+    add_options(app, flags, texts);
     try {
         app.parse(argc, argv);
-        apply(flags, settings, size, log_level);
+        apply(flags, texts);
     } catch (const CLI::ParseError& problem) {
         return app.exit(problem, std::cout, std::cerr) == 0 ? 0 : kWrongUsage;
     }

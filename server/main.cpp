@@ -24,7 +24,10 @@ constexpr int kWrongUsage = 2;
 class RendererService : public RenderService {
 public:
     explicit RendererService(Renderer& renderer) : renderer_(renderer) { }
-    const RendererDescription& description() const override { return renderer_.description(); }
+    std::shared_ptr<const RendererDescription> description() const override
+    {
+        return renderer_.description();
+    }
     void attach(std::shared_ptr<FrameSource> source) override
     {
         renderer_.attach(std::move(source));
@@ -61,8 +64,8 @@ void tell(const RendererDescription& description, const Flags& flags)
         description.triangles, description.lights);
     for (const std::string& note : description.scene_notes)
         spdlog::info("scene: {}", note);
-    for (const std::string& effect : description.effects)
-        spdlog::info("compiled in: {}", effect);
+    for (const ActiveEffect& effect : description.effects)
+        spdlog::info("calls for {}: {}", effect.name, effect.reason);
     spdlog::info("size: {}x{}, {}", description.default_extent.width,
         description.default_extent.height,
         flags.renderer.extent ? "from --size" : "measured to move at 10 frames a second here");
@@ -94,13 +97,13 @@ struct UsageError : std::runtime_error {
 int serve(const Flags& flags)
 {
     Renderer renderer(load_scene(flags.scene), flags.renderer);
-    const auto [width, height] = renderer.description().default_extent;
+    const auto [width, height] = renderer.description()->default_extent;
     if (const auto problem = refuse_extent(static_cast<std::uint64_t>(width),
-            static_cast<std::uint64_t>(height), renderer.description().max_dimension))
+            static_cast<std::uint64_t>(height), renderer.description()->max_dimension))
         throw UsageError(*problem);
     RendererService service(renderer);
     Listener listener(service, flags.stream);
-    tell(renderer.description(), flags);
+    tell(*renderer.description(), flags);
     boost::asio::signal_set signals(listener.context(), SIGINT, SIGTERM);
     stop_on_signals(signals, listener);
     std::cout << "farlight-server: listening on " << listener.url() << std::endl;

@@ -69,7 +69,7 @@ EGLDisplay display_of(const Candidate& candidate)
     return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
 }
 
-EGLContext create_context(EGLDisplay display)
+EGLContext create_context(EGLDisplay display, EGLContext shared_with)
 {
 #ifdef NDEBUG
     constexpr EGLint kDebug = EGL_FALSE;
@@ -81,12 +81,12 @@ EGLContext create_context(EGLDisplay display)
         EGL_CONTEXT_OPENGL_DEBUG, kDebug, EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
         EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE};
     const EGLContext context =
-        eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+        eglCreateContext(display, EGL_NO_CONFIG_KHR, shared_with, attributes);
     if (context != EGL_NO_CONTEXT)
         return context;
     const EGLint without_reset[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
-    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, without_reset);
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, shared_with, without_reset);
 }
 
 void close_context(const OpenContext& open)
@@ -116,7 +116,7 @@ OpenContext open_context(const Candidate& candidate)
     open.display = display;
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE)
         return problem = "it has no desktop OpenGL", open;
-    open.context = create_context(display);
+    open.context = create_context(display, EGL_NO_CONTEXT);
     if (open.context == EGL_NO_CONTEXT)
         return problem = "it has no OpenGL 4.5 core", open;
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, open.context) != EGL_TRUE)
@@ -128,6 +128,15 @@ OpenContext open_context(const Candidate& candidate)
     if (candidate.device != nullptr && open.description.software)
         problem = "it is a software renderer; --device software uses it";
     return open;
+}
+
+void log_errors()
+{
+#ifndef NDEBUG
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(log_debug_message, nullptr);
+#endif
 }
 
 bool selects(std::string_view selector, const Candidate& candidate)
@@ -178,11 +187,7 @@ Context::Context(std::string_view selector)
             display_ = open.display;
             context_ = open.context;
             device_ = open.description;
-#ifndef NDEBUG
-            glEnable(GL_DEBUG_OUTPUT);
-            glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-            glDebugMessageCallback(log_debug_message, nullptr);
-#endif
+            log_errors();
             return;
         }
         tried += "\n  " + candidate.selector + " (" + open.description.name
@@ -198,6 +203,25 @@ Context::Context(std::string_view selector)
 Context::~Context()
 {
     close_context({display_, context_, {}});
+}
+
+std::unique_ptr<Context> Context::shared() const
+{
+    auto other = std::unique_ptr<Context>(new Context);
+    other->display_ = display_;
+    other->device_ = device_;
+    other->context_ = create_context(display_, context_);
+    if (other->context_ == EGL_NO_CONTEXT)
+        throw DeviceError(device_.selector + ": no second context that shares with the first");
+    return other;
+}
+
+void Context::make_current() const
+{
+    if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE
+        || eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
+        throw DeviceError(device_.selector + ": its context cannot be made current");
+    log_errors();
 }
 
 }  // namespace farlight

@@ -1,6 +1,7 @@
 // Context: OpenGL 4.5 core on a headless EGL display, made current on the calling thread.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,7 +32,15 @@ public:
 
     const DeviceDescription& device() const { return device_; }
 
+    /// A second context on the same device that shares programs, buffers and textures with this
+    /// one. Current on no thread: call make_current() on the one that is to use it, and destroy it
+    /// there. This context must outlive it. Throws DeviceError.
+    std::unique_ptr<Context> shared() const;
+    void make_current() const;
+
 private:
+    Context() = default;
+
     void* display_ = nullptr;
     void* context_ = nullptr;
     DeviceDescription device_;

@@ -2,6 +2,7 @@
 #include "server/gl/program.h"
 
 #include "server/gl/gl_error.h"
+#include "server/gl/program_binaries.h"
 
 #include <memory>
 
@@ -43,6 +44,13 @@ GLuint compiled(const ShaderSource& source)
     throw ShaderError("cannot compile " + explain_log(source, log));
 }
 
+bool linked(GLuint program)
+{
+    GLint ok = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    return ok == GL_TRUE;
+}
+
 }  // namespace
 
 VariableKind kind_of(GLenum uniform_type)
@@ -62,24 +70,64 @@ VariableKind kind_of(GLenum uniform_type)
     }
 }
 
-Program::Program(const ShaderSource& source) : name_(source.name)
+Program::Program(const ShaderSource& source, const ProgramBinaries* binaries) : name_(source.name)
 {
-    const GLuint shader = compiled(source);
-    id_ = glCreateProgram();
-    glAttachShader(id_, shader);
-    glLinkProgram(id_);
-    glDeleteShader(shader);
-    GLint ok = GL_FALSE;
-    glGetProgramiv(id_, GL_LINK_STATUS, &ok);
-    if (ok != GL_TRUE) {
-        const std::string log = info_log(id_, glGetProgramiv, glGetProgramInfoLog);
-        glDeleteProgram(id_);
-        throw ShaderError("cannot link " + explain_log(source, log));
+    if (binaries == nullptr || !load(source, *binaries)) {
+        build(source);
+        if (binaries != nullptr)
+            store(source, *binaries);
     }
     glObjectLabel(GL_PROGRAM, id_, -1, name_.c_str());
     glGetProgramiv(id_, GL_COMPUTE_WORK_GROUP_SIZE, work_group_size_);
     reflect_uniforms();
     reflect_blocks();
+}
+
+/// False: there is no entry, or the driver does not take it.
+bool Program::load(const ShaderSource& source, const ProgramBinaries& binaries)
+{
+    const std::optional<ProgramBinary> binary = binaries.load(source);
+    if (!binary)
+        return false;
+    id_ = glCreateProgram();
+    glProgramBinary(
+        id_, binary->format, binary->bytes.data(), static_cast<GLsizei>(binary->bytes.size()));
+    while (glGetError() != GL_NO_ERROR) { }  // a format it does not know
+    if (linked(id_))
+        return true;
+    glDeleteProgram(id_);
+    return false;
+}
+
+void Program::build(const ShaderSource& source)
+{
+    const GLuint shader = compiled(source);
+    id_ = glCreateProgram();
+    glProgramParameteri(id_, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    glAttachShader(id_, shader);
+    glLinkProgram(id_);
+    glDeleteShader(shader);
+    if (linked(id_))
+        return;
+    const std::string log = info_log(id_, glGetProgramiv, glGetProgramInfoLog);
+    glDeleteProgram(id_);
+    throw ShaderError("cannot link " + explain_log(source, log));
+}
+
+void Program::store(const ShaderSource& source, const ProgramBinaries& binaries) const
+{
+    GLint length = 0;
+    glGetProgramiv(id_, GL_PROGRAM_BINARY_LENGTH, &length);
+    if (length <= 0)
+        return;  // a driver without binaries
+    ProgramBinary binary;
+    binary.bytes.resize(static_cast<std::size_t>(length));
+    GLenum format = 0;
+    glGetProgramBinary(id_, length, &length, &format, binary.bytes.data());
+    binary.format = format;
+    binary.bytes.resize(static_cast<std::size_t>(length));
+    if (glGetError() == GL_NO_ERROR && length > 0)
+        binaries.store(source, binary);
 }
 
 Program::~Program()

@@ -19,10 +19,13 @@ struct UniformVariable {
 enum class VariableKind { kConstant, kSampler, kImage };
 VariableKind kind_of(GLenum uniform_type);
 
+class ProgramBinaries;
+
 class Program {
 public:
-    /// Compiles and links. Throws ShaderError with the driver's log and the table of files.
-    explicit Program(const ShaderSource& source);
+    /// Takes the program from `binaries` if it is there, else compiles, links and leaves it there.
+    /// Throws ShaderError with the driver's log and the table of files.
+    explicit Program(const ShaderSource& source, const ProgramBinaries* binaries = nullptr);
     ~Program();
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
@@ -47,6 +50,9 @@ public:
     }
 
 private:
+    bool load(const ShaderSource& source, const ProgramBinaries& binaries);
+    void build(const ShaderSource& source);
+    void store(const ShaderSource& source, const ProgramBinaries& binaries) const;
     void reflect_uniforms();
     void reflect_blocks();
 

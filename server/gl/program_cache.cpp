@@ -3,15 +3,34 @@
 
 namespace farlight {
 
-const Program& ProgramCache::get(const std::string& shader, const Defines& defines)
+const Program& ProgramCache::get(const ProgramKey& key)
 {
-    std::string key = shader;
-    for (const auto& [name, value] : defines)
-        key.append("\n").append(name).append(" ").append(value);
     std::unique_ptr<Program>& program = programs_[key];
-    if (program == nullptr)
-        program = std::make_unique<Program>(load_shader_source(shader, defines));
+    if (program == nullptr) {
+        try {
+            program =
+                std::make_unique<Program>(load_shader_source(key.shader, key.defines), binaries_);
+        } catch (...) {
+            programs_.erase(key);
+            throw;
+        }
+    }
     return *program;
+}
+
+void ProgramCache::adopt(const ProgramKey& key, std::unique_ptr<Program> program)
+{
+    programs_[key] = std::move(program);
+}
+
+std::unique_ptr<Program> ProgramCache::take(const ProgramKey& key)
+{
+    const auto found = programs_.find(key);
+    if (found == programs_.end())
+        return nullptr;
+    std::unique_ptr<Program> program = std::move(found->second);
+    programs_.erase(found);
+    return program;
 }
 
 }  // namespace farlight

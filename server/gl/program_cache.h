@@ -9,14 +9,44 @@
 
 namespace farlight {
 
+class ProgramBinaries;
+
+/// What a program is compiled from.
+struct ProgramKey {
+    std::string shader;
+    Defines defines;
+
+    auto operator<=>(const ProgramKey&) const = default;
+};
+
+/// Used by one thread at a time; programs may be handed from one cache to another whose context
+/// shares objects with its own.
 class ProgramCache {
 public:
-    /// Compiles at first use. The reference stays valid as long as the cache. Throws ShaderError.
-    const Program& get(const std::string& shader, const Defines& defines);
+    /// `binaries`: compiled programs of earlier runs, to be used before any compiler; none: null.
+    explicit ProgramCache(const ProgramBinaries* binaries = nullptr) : binaries_(binaries) { }
+
+    /// Compiles at first use. The reference stays valid as long as the program is in the cache.
+    /// Throws ShaderError.
+    const Program& get(const ProgramKey& key);
+    const Program& get(const std::string& shader, const Defines& defines)
+    {
+        return get(ProgramKey{shader, defines});
+    }
+    bool has(const ProgramKey& key) const { return programs_.contains(key); }
+    void adopt(const ProgramKey& key, std::unique_ptr<Program> program);
+    /// Takes a program out, or nothing if it is not there.
+    std::unique_ptr<Program> take(const ProgramKey& key);
+    /// Forgets programs whose key `unwanted` accepts.
+    template <typename Unwanted> void drop(const Unwanted& unwanted)
+    {
+        std::erase_if(programs_, [&](const auto& entry) { return unwanted(entry.first); });
+    }
     std::size_t size() const { return programs_.size(); }
 
 private:
-    std::map<std::string, std::unique_ptr<Program>> programs_;
+    const ProgramBinaries* binaries_;
+    std::map<ProgramKey, std::unique_ptr<Program>> programs_;
 };
 
 }  // namespace farlight

@@ -23,6 +23,12 @@ struct FrameInputs {
     bool antialiasing = false;
     glm::vec2 pixel_jitter{0};  ///< Of the primary rays from the pixels' middles [px].
 
+    /// The same, for another variant of the scene's programs.
+    FrameInputs with_scene(const SceneInputs& other) const
+    {
+        return {other, fog, lens_radius, focus_distance, pixel_jitter};
+    }
+
     bool has_specular() const { return scene.calls_for("FX_SPECULAR_SIGNAL"); }
     bool has_fog() const { return scene.calls_for("FX_FOG"); }
     bool has_lens() const { return scene.calls_for("FX_LENS"); }

@@ -108,18 +108,12 @@ TextureHandle FrameGraph::create(const std::string& name, GLenum format)
 History FrameGraph::history(const std::string& name, GLenum format)
 {
     HistoryPair& pair = histories_[name];
-    if (pair.textures[0] == nullptr || pair.textures[0]->format() != format) {
-        for (auto& texture : pair.textures)
-            texture = std::make_shared<GpuTexture>(name, format, extent_);
-        pair.written_last_frame = false;
+    if (pair.format != format) {
+        pair = {.format = format};
     }
     if (pair.resource_current < 0) {
-        for (int age : {1, 0}) {
-            Resource resource{
-                name, format, pair.textures[age == 0 ? pair.current : 1 - pair.current]};
-            resource.transient = false;
-            resources_.push_back(resource);
-        }
+        for (int age = 1; age >= 0; --age)
+            resources_.push_back({.name = name, .format = format, .transient = false});
         pair.resource_previous = static_cast<int>(resources_.size()) - 2;
         pair.resource_current = static_cast<int>(resources_.size()) - 1;
     }
@@ -151,9 +145,25 @@ void FrameGraph::find_lifetimes()
             resources_[static_cast<std::size_t>(use.texture.index)].last_pass = static_cast<int>(i);
 }
 
+void FrameGraph::allocate_histories()
+{
+    for (auto& [name, pair] : histories_) {
+        if (pair.resource_current < 0)
+            continue;
+        for (auto& texture : pair.textures)
+            if (texture == nullptr)
+                texture = std::make_shared<GpuTexture>(name, pair.format, extent_);
+        resources_[static_cast<std::size_t>(pair.resource_current)].texture =
+            pair.textures[pair.current];
+        resources_[static_cast<std::size_t>(pair.resource_previous)].texture =
+            pair.textures[1 - pair.current];
+    }
+}
+
 void FrameGraph::execute()
 {
     find_lifetimes();
+    allocate_histories();
     barriers_ = 0;
     for (std::size_t i = 0; i < passes_.size(); ++i)
         run(passes_[i], static_cast<int>(i));
@@ -351,21 +361,40 @@ const GpuTexture& FrameGraph::texture(TextureHandle handle) const
     return *resource.texture;
 }
 
+std::vector<TextureAllocation> FrameGraph::allocations() const
+{
+    std::vector<TextureAllocation> held;
+    const auto add = [&](const std::string& name, const std::shared_ptr<GpuTexture>& texture) {
+        if (texture != nullptr)
+            held.push_back({name,
+                bytes_per_texel(texture->format()) * static_cast<std::size_t>(extent_.width)
+                    * static_cast<std::size_t>(extent_.height)});
+    };
+    for (const auto& texture : pool_)
+        add("scratch", texture);
+    for (const Resource& resource : resources_)
+        if (resource.transient)
+            add(resource.name, resource.texture);
+    for (const auto& [name, pair] : histories_)
+        for (const auto& texture : pair.textures)
+            add(name, texture);
+    return held;
+}
+
 std::size_t FrameGraph::texture_bytes() const
 {
     std::size_t bytes = 0;
-    const auto count = [&](const std::shared_ptr<GpuTexture>& texture) {
-        if (texture != nullptr)
-            bytes += bytes_per_texel(texture->format()) * static_cast<std::size_t>(extent_.width)
-                * static_cast<std::size_t>(extent_.height);
-    };
-    std::for_each(pool_.begin(), pool_.end(), count);
-    for (const Resource& resource : resources_)
-        if (resource.transient)
-            count(resource.texture);
-    for (const auto& [name, pair] : histories_)
-        std::for_each(std::begin(pair.textures), std::end(pair.textures), count);
+    for (const TextureAllocation& allocation : allocations())
+        bytes += allocation.bytes;
     return bytes;
+}
+
+std::vector<ProgramKey> FrameGraph::programs() const
+{
+    std::vector<ProgramKey> keys;
+    for (const Pass& pass : passes_)
+        keys.push_back({pass.shader, pass.defines});
+    return keys;
 }
 
 std::vector<std::string> FrameGraph::pass_names() const

@@ -80,6 +80,12 @@ struct Pass {
     Pass& dispatch(Extent over);  ///< One invocation a pixel, rounded up to whole work groups.
 };
 
+/// A texture that a graph holds.
+struct TextureAllocation {
+    std::string name;
+    std::size_t bytes = 0;
+};
+
 class FrameGraph {
 public:
     /// `software`: passes are timed by the host clock.
@@ -112,6 +118,10 @@ public:
     /// Bytes of all textures held, and how many.
     std::size_t texture_bytes() const;
     std::vector<std::string> pass_names() const;
+    /// The programs that the frame being declared will ask for.
+    std::vector<ProgramKey> programs() const;
+    /// What is held: the frame's transients, histories, and what waits to be used again.
+    std::vector<TextureAllocation> allocations() const;
     /// Barriers between passes of the last executed frame.
     int barrier_count() const { return barriers_; }
 
@@ -126,6 +136,7 @@ private:
         bool kept = false;
     };
     struct HistoryPair {
+        GLenum format = 0;
         std::shared_ptr<GpuTexture> textures[2];
         int current = 0;
         bool written_last_frame = false;
@@ -140,6 +151,7 @@ private:
     void check_declared(const Pass& pass, const Program& program) const;
     void complain(const Pass& pass, const std::string& variable, const std::string& problem) const;
     void find_lifetimes();
+    void allocate_histories();
     void run(const Pass& pass, int pass_index);
     void acquire(Resource& resource);
     void bind_textures(const Pass& pass, const Program& program);

@@ -3,9 +3,8 @@
 
 #include "server/gl/context.h"
 #include "server/gl/gl_error.h"
+#include "server/render/live_scene.h"
 #include "server/render/start_size.h"
-#include "server/render/view.h"
-#include "server/scene/neutral.h"
 
 #include <algorithm>
 #include <atomic>
@@ -55,52 +54,38 @@ std::string too_much_work(const RenderRequest& request)
         + " segments is more than 1e9 path segments: ask for fewer samples a frame";
 }
 
-RendererDescription describe(const Context& context, const Scene& scene, const GpuScene& gpu_scene)
-{
-    RendererDescription d;
-    d.device = context.device().selector;
-    d.gl_renderer = context.device().name;
-    d.gl_version = context.device().version;
-    d.software = context.device().software;
-    d.scene_name = scene.name;
-    d.scene_file = scene.file;
-    d.scene_notes = scene.notes;
-    if (gpu_scene.dropped_triangles() > 0)
-        d.scene_notes.push_back(std::to_string(gpu_scene.dropped_triangles())
-            + " triangles of zero area or beyond 32-bit range in world space were left out.");
-    for (const ActiveEffect& effect : gpu_scene.effects())
-        d.effects.push_back(std::string(effect.name) + ": " + effect.reason);
-    d.camera = scene.camera;
-    d.camera_paths = scene.camera_paths;
-    d.bounds = scene_bounds(scene);
-    d.triangles = gpu_scene.triangle_count();
-    d.lights = gpu_scene.light_count();
-    GLint limit = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
-    d.max_dimension = std::min(limit, 8192);  // above it one frame's buffers alone pass 16 GB
-    return d;
-}
-
 }  // namespace
 
+/// A scene on its way to the render thread.
+struct IncomingScene {
+    LoadedScene loaded;
+    std::promise<void> shown;
+};
+
 struct Renderer::State {
-    Scene scene;
+    Scene scene;  ///< The first one, until the render thread has it.
     RendererOptions options;
-    RendererDescription description;
     std::size_t view_memory = 0;  ///< [bytes]
 
     std::mutex mutex;
     std::condition_variable work;  ///< Something may have changed for the render thread.
     std::condition_variable left;  ///< A leaving client is gone.
     std::vector<std::shared_ptr<Client>> clients;
+    std::shared_ptr<const RendererDescription> description;
+    std::unique_ptr<IncomingScene> incoming;
     std::string failure;
     bool woken = false;
     bool stopping = false;
     std::atomic<std::uint64_t> frames_rendered = 0;
+    std::mutex replacing;  ///< One scene is replaced at a time.
+    std::unique_ptr<GlWorker> loader;
     std::thread thread;
 
     void run(std::promise<void> ready);
-    void serve(const SharedScene& scene) noexcept;
+    void serve(const Context& context, LiveScene& live) noexcept;
+    void take_scene(const Context& context, LiveScene& live);
+    void publish(RendererDescription d);
+    void wake();
     std::vector<std::shared_ptr<Client>> take_clients();
     bool advance(Client& client, const SharedScene& scene);
     bool alone();
@@ -118,22 +103,58 @@ void Renderer::State::run(std::promise<void> ready)
     std::unique_ptr<Context> context;
     try {
         context = std::make_unique<Context>(options.device);
-        ProgramCache programs;
-        const GpuScene gpu_scene(scene);
-        description = describe(*context, scene, gpu_scene);
-        const SharedScene shared{programs, {gpu_scene.textures(), gpu_scene.defines()},
-            look_of(scene), description.software};
-        view_memory = memory_for_views(options, description.software);
-        description.default_extent =
-            options.extent ? *options.extent : start_extent(shared, scene.camera, options.settings);
-        scene.meshes.clear();  // the device has them now
+        LiveScene live(*context, options, [this] { wake(); });
+        live.show(load_onto_device(std::move(scene)));
+        live.prepare_programs(options.settings);
+        RendererDescription d = describe(*context, live);
+        view_memory = memory_for_views(options, d.software);
+        if (!options.extent)
+            live.finish_programs();  // what is measured is what will draw
+        d.default_extent = options.extent ? *options.extent
+                                          : start_extent(live.shared(), d.camera, options.settings);
+        publish(std::move(d));
+        loader = std::make_unique<GlWorker>(*context);
         ready.set_value();
-        serve(shared);
+        serve(*context, live);
+        loader.reset();
         const std::lock_guard lock(mutex);
         clients.clear();
+        incoming.reset();
     } catch (...) {
         ready.set_exception(std::current_exception());  // serve() throws nothing
     }
+}
+
+void Renderer::State::publish(RendererDescription d)
+{
+    const std::lock_guard lock(mutex);
+    description = std::make_shared<const RendererDescription>(std::move(d));
+}
+
+/// Shows the scene that waits, if one does.
+void Renderer::State::take_scene(const Context& context, LiveScene& live)
+{
+    std::unique_ptr<IncomingScene> next;
+    {
+        const std::lock_guard lock(mutex);
+        next = std::move(incoming);
+    }
+    if (next == nullptr)
+        return;
+    live.show(std::move(next->loaded));
+    RendererDescription d = describe(context, live);
+    d.default_extent = description->default_extent;
+    publish(std::move(d));
+    next->shown.set_value();
+}
+
+void Renderer::State::wake()
+{
+    {
+        const std::lock_guard lock(mutex);
+        woken = true;
+    }
+    work.notify_all();
 }
 
 /// Drops leaving clients, and gives the ones to serve this round.
@@ -149,12 +170,15 @@ std::vector<std::shared_ptr<Client>> Renderer::State::take_clients()
     return clients;
 }
 
-void Renderer::State::serve(const SharedScene& shared) noexcept
+void Renderer::State::serve(const Context& context, LiveScene& live) noexcept
 {
     for (;;) {
         bool drew = false;
-        for (const auto& client : take_clients())
-            drew = advance(*client, shared) || drew;
+        for (const auto& client : take_clients()) {
+            take_scene(context, live);
+            drew = advance(*client, live.shared()) || drew;
+        }
+        take_scene(context, live);
         if (drew)
             continue;
         std::unique_lock lock(mutex);
@@ -272,7 +296,6 @@ void Renderer::State::lose_device(const std::string& message)
 Renderer::Renderer(Scene scene, const RendererOptions& options) : state_(std::make_unique<State>())
 {
     state_->scene = std::move(scene);
-    drop_neutral(state_->scene);
     state_->options = options;
     std::promise<void> ready;
     std::future<void> started = ready.get_future();
@@ -298,9 +321,35 @@ Renderer::~Renderer()
     state_->thread.join();
 }
 
-const RendererDescription& Renderer::description() const
+std::shared_ptr<const RendererDescription> Renderer::description() const
 {
+    const std::lock_guard lock(state_->mutex);
     return state_->description;
+}
+
+void Renderer::replace_scene(Scene scene)
+{
+    const std::lock_guard one_at_a_time(state_->replacing);
+    // Shared with a job that may be done after this has returned, when the renderer ends meanwhile.
+    auto loaded = std::make_shared<std::promise<LoadedScene>>();
+    std::future<LoadedScene> when_loaded = loaded->get_future();
+    auto job = [loaded = std::move(loaded), scene = std::move(scene)]() mutable {
+        try {
+            loaded->set_value(load_onto_device(std::move(scene)));
+        } catch (...) {
+            loaded->set_exception(std::current_exception());
+        }
+    };
+    state_->loader->request(std::move(job));
+    std::future<void> when_shown;
+    {
+        auto next = std::make_unique<IncomingScene>(IncomingScene{when_loaded.get(), {}});
+        when_shown = next->shown.get_future();
+        const std::lock_guard lock(state_->mutex);
+        state_->incoming = std::move(next);
+    }
+    wake();
+    when_shown.get();
 }
 
 void Renderer::attach(std::shared_ptr<FrameSource> source)
@@ -330,11 +379,7 @@ void Renderer::detach(const std::shared_ptr<FrameSource>& source)
 
 void Renderer::wake()
 {
-    {
-        const std::lock_guard lock(state_->mutex);
-        state_->woken = true;
-    }
-    state_->work.notify_all();
+    state_->wake();
 }
 
 std::string Renderer::failure() const

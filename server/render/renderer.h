@@ -9,6 +9,7 @@
 #include "server/render/settings.h"
 #include "server/scene/scene.h"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ struct RenderedFrame {
         0;  ///< Non-finite values met before anything cleaned them; must be 0.
     bool history_reset = false;  ///< This frame started without history.
     bool converged = false;  ///< accumulated_samples reached settings.still_samples.
+    EffectMask effects;  ///< Held by the programs that drew it.
     std::string error;  ///< Not empty: this frame could not be drawn and `image` is empty.
 };
 
@@ -61,7 +63,7 @@ public:
     virtual void frame_done(RenderedFrame frame) = 0;
 };
 
-/// What a client may want to know before its first frame; fixed once the renderer runs.
+/// What a client may want to know before its first frame.
 struct RendererDescription {
     std::string device;  ///< "software" or "gpu:N", and the device's own name.
     std::string gl_renderer;  ///< GL_RENDERER.
@@ -70,8 +72,9 @@ struct RendererDescription {
     std::string scene_name;
     std::string scene_file;
     std::vector<std::string> scene_notes;
-    std::vector<std::string>
-        effects;  ///< "spheres: 4 objects, first 'left'" ...: compiled in, and why.
+    std::vector<ActiveEffect> effects;  ///< What the scene calls for, and why.
+    std::vector<std::pair<std::string, std::size_t>>
+        allocations;  ///< The scene's GPU memory [bytes], by what it is for.
     CameraPose camera;
     std::map<std::string, std::vector<CameraKeyframe>> camera_paths;
     Bounds bounds;
@@ -90,6 +93,8 @@ struct RendererOptions {
     /// device, 8 GiB on hardware. A frame that would need more is refused, with the need and the
     /// limit in RenderedFrame::error.
     std::size_t view_memory = 0;
+    /// Where compiled programs are kept from one run to the next; absent: nowhere.
+    std::optional<std::filesystem::path> program_folder;
 };
 
 /// Starts the render thread. Thread-safe.
@@ -103,7 +108,13 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    const RendererDescription& description() const;
+    /// As of the scene being drawn.
+    std::shared_ptr<const RendererDescription> description() const;
+
+    /// Draws `scene` from the next frame on, with programs that hold what it calls for; histories
+    /// stay. Loads it meanwhile, beside the frames being drawn, and returns when it is in place.
+    /// Throws what the constructor throws for a scene; then the old one stays.
+    void replace_scene(Scene scene);
 
     void attach(std::shared_ptr<FrameSource> source);
     /// After this returns, `source` is not called again. Its history is freed.

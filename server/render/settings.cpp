@@ -93,6 +93,21 @@ void assign(float& member, std::string_view key, RealRange range, const json& va
     member = static_cast<float>(number);
 }
 
+void assign(EffectChoice& member, std::string_view key, TextRule /*rule*/, const json& value)
+{
+    if (value.is_string()) {
+        try {
+            member = parse_effect_choice(value.get_ref<const std::string&>());
+            return;
+        } catch (const std::invalid_argument&) {
+        }
+    }
+    std::string names;
+    for (const std::string_view name : EffectMask::general().names())
+        names.append(", ").append(name);
+    refuse(key, value, "auto, general, or a list with commas of" + names.substr(1));
+}
+
 /// The shortest decimal that reads back as the same float: 0.2, not 0.20000000298.
 double decimal(float value)
 {
@@ -119,6 +134,11 @@ json row_of(float value, RealRange range)
 {
     return {{"type", "real"}, {"value", decimal(value)}, {"lower", range.lower},
         {"upper", range.upper}};
+}
+
+json row_of(const EffectChoice& value, TextRule /*rule*/)
+{
+    return {{"type", "text"}, {"value", to_text(value)}};
 }
 
 json rows_of(const RenderSettings& settings)

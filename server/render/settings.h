@@ -2,6 +2,8 @@
 // each_field.
 #pragma once
 
+#include "server/scene/effect_choice.h"
+
 #include <cstdint>
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
@@ -22,6 +24,9 @@ struct RealRange {
     double lower;
     double upper;
 };
+
+/// A setting whose values are text with rules of their own.
+struct TextRule { };
 
 enum class Denoiser : std::uint8_t { kOff, kAccumulate, kSvgf };
 enum class Tonemap : std::uint8_t { kAces, kLinear };
@@ -77,6 +82,8 @@ struct RenderSettings {
     float reproject_depth = 2;
     float reproject_normal = 0.9F;
 
+    EffectChoice effects;
+
     int still_samples = 256;
     int refine_crossover = 64;
 
@@ -127,6 +134,9 @@ struct RenderSettings {
             "surface");
         visit(s.reproject_normal, "reproject_normal", RealRange{-1, 1},
             "least cosine between the normals of a pixel and its history");
+        visit(s.effects, "effects", TextRule{},
+            "effects compiled in: auto (what the scene calls for), general (all), or a list of "
+            "names with commas; less than the scene calls for is refused");
         visit(s.still_samples, "still_samples", IntRange{1, 65536},
             "samples a pixel after which a resting picture is final and sent lossless");
         visit(s.refine_crossover, "refine_crossover", IntRange{1, 65536},
@@ -150,7 +160,7 @@ void set_setting(RenderSettings& settings, std::string_view key, const nlohmann:
 /// The same from `key=value`, as on the command line.
 void set_setting(RenderSettings& settings, std::string_view key_equals_value);
 
-/// [{"key", "type": "choice"|"integer"|"real"|"boolean", "value", "default", "choices" |
+/// [{"key", "type": "choice"|"integer"|"real"|"boolean"|"text", "value", "default", "choices" |
 /// "lower","upper", "help"}].
 nlohmann::json describe_settings(const RenderSettings& settings);
 

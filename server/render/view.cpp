@@ -32,6 +32,15 @@ glm::vec2 jitter_of(int index)
 
 }  // namespace
 
+/// For what does not depend on the programs.
+const SceneInputs kNoScene;
+
+EffectMask effects_of(const FramePlan& plan)
+{
+    const bool averages = plan.refine || plan.settings.denoiser == Denoiser::kAccumulate;
+    return averages && plan.settings.antialiasing ? EffectMask::of({"antialiasing"}) : EffectMask();
+}
+
 View::View(const SharedScene& scene)
     : scene_(scene)
     , graph_(scene.programs, scene.software, scene.strict)
@@ -45,7 +54,7 @@ void View::follow(const RenderRequest& request)
 {
     const RenderSettings& s = request.settings;
     const SampleKey key{request.camera, request.extent, s.samples_per_pixel, s.max_depth,
-        s.roulette_depth, s.light_sampling, s.antialiasing, s.seed};
+        s.roulette_depth, s.light_sampling, s.antialiasing, s.seed, scene_.version};
     if (request.reset_history || request.extent != key_.extent)
         has_history_ = false;
     if (!has_history_)
@@ -64,6 +73,7 @@ void View::upload_constants(const RenderRequest& request)
     constants.prev_camera =
         has_history_ ? camera_constants(prev_camera_, request.extent) : constants.camera;
     constants.background = scene_.look.background;
+    constants.light_count = scene_.light_count;
     constants.first_sample = samples_;
     constants.extent = {request.extent.width, request.extent.height};
     constants.seed = request.settings.seed;
@@ -74,7 +84,7 @@ void View::upload_constants(const RenderRequest& request)
 /// What the scene and the camera's optics give to the stages of this frame.
 FrameInputs View::inputs_of(const RenderRequest& request) const
 {
-    FrameInputs inputs{scene_.inputs, scene_.look.fog};
+    FrameInputs inputs{kNoScene, scene_.look.fog};
     const Lens& lens = scene_.look.lens;
     const double target = glm::length(request.camera.target - request.camera.position);
     const double focus = lens.focus_distance > 0 ? lens.focus_distance : target;
@@ -100,16 +110,23 @@ void View::begin(const RenderRequest& request)
     plan.scene_radius = scene_.look.radius;
     plan.scatters = scene_.look.scatters;
     plan.linear_output = request.format == PixelFormat::kRgb32f;
+    const FrameInputs values = inputs_of(request);
+    const DeclareFrame declare = [plan, values](FrameGraph& graph, const SceneInputs& inputs) {
+        build_frame(graph, values.with_scene(inputs), plan);
+    };
+    const Variant& variant =
+        scene_.scene_programs.choose(plan.settings.effects, effects_of(plan), declare);
     graph_.begin_frame(
         request.extent, {{"frame_block", constants_.id()}, {"counter_block", counters_.id()}});
-    const FrameInputs inputs = inputs_of(request);
-    const TextureHandle result = build_frame(graph_, inputs, plan);
+    const TextureHandle result =
+        build_frame(graph_, values.with_scene(variant.inputs), plan);
     graph_.keep(result);
     graph_.execute();
     readback_.begin(graph_.texture(result));
 
     frame_ = RenderedFrame{};
     frame_.history_reset = !has_history_;
+    frame_.effects = variant.mask;
     const int averaged = mean_frames_ > 0 ? mean_frames_ : still_frames_;
     frame_.accumulated_samples = static_cast<std::uint32_t>(averaged)
         * static_cast<std::uint32_t>(request.settings.samples_per_pixel);

@@ -4,25 +4,30 @@
 
 #include "server/gl/buffer.h"
 #include "server/gl/program_cache.h"
-#include "server/render/frame_graph.h"
+#include "server/render/frame.h"
 #include "server/render/readback.h"
 #include "server/render/renderer.h"
 #include "server/render/scene_look.h"
-#include "server/scene/gpu_scene.h"
+#include "server/render/scene_programs.h"
 
 namespace farlight {
 
 /// What all views of a renderer share.
 struct SharedScene {
     ProgramCache& programs;
-    SceneInputs inputs;
+    ScenePrograms& scene_programs;
     SceneLook look;
+    std::uint32_t light_count = 0;
     bool software = false;
     bool strict = false;  ///< See FrameGraph.
+    std::uint32_t version = 0;  ///< Counts scenes shown: pictures of two must not be averaged.
 };
 
 /// GPU memory a view takes at most, with every stage on, its pixel buffer included [bytes a pixel].
 constexpr std::size_t kViewBytesPerPixel = 512;
+
+/// Effects that a frame calls for by itself, whatever the scene.
+EffectMask effects_of(const FramePlan& plan);
 
 /// GL thread only.
 class View {
@@ -54,6 +59,7 @@ private:
         bool light_sampling = false;
         bool antialiasing = false;
         std::uint32_t seed = 0;
+        std::uint32_t scene_version = 0;
 
         bool operator==(const SampleKey&) const = default;
     };

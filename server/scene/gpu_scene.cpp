@@ -17,7 +17,6 @@ GpuScene::GpuScene(const Scene& scene)
     for (const std::string_view macro : mask_of(effects_).macros())
         defines_.emplace_back(macro, "1");
     defines_.emplace_back("BVH_STACK_SIZE", std::to_string(packed.stack_depth + 1));
-    defines_.emplace_back("LIGHT_COUNT", std::to_string(packed.lights->count()) + "u");
     defines_.emplace_back("TEXTURE_ARRAY_COUNT",
         std::to_string(std::max<std::size_t>(packed.textures.arrays().size(), 1)));
     buffers_.emplace_back("nothing", std::span<const std::byte>());

@@ -9,7 +9,7 @@ namespace farlight {
 class RenderService {
 public:
     virtual ~RenderService() = default;
-    virtual const RendererDescription& description() const = 0;
+    virtual std::shared_ptr<const RendererDescription> description() const = 0;
     virtual void attach(std::shared_ptr<FrameSource> source) = 0;
     /// May wait for a frame being drawn: never called on the network thread.
     virtual void detach(const std::shared_ptr<FrameSource>& source) = 0;

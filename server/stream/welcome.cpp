@@ -54,7 +54,8 @@ protocol::Welcome describe_server(const RendererDescription& description)
     for (const auto& [name, keyframes] : description.camera_paths)
         for (const CameraKeyframe& keyframe : keyframes)
             welcome.camera_paths[name].push_back({keyframe.frame, pose_to_wire(keyframe.pose)});
-    welcome.effects = description.effects;
+    for (const ActiveEffect& effect : description.effects)
+        welcome.effects.push_back(std::string(effect.name) + ": " + effect.reason);
     welcome.limits.max_dimension = static_cast<std::uint32_t>(description.max_dimension);
     return welcome;
 }

@@ -108,7 +108,7 @@ float environment_pdf(vec3 direction)
     const ivec2 size = environment_size();
     if (size.x > 0) {
         const ivec2 texel = clamp(ivec2(environment_place(direction) * vec2(size)), ivec2(0), size - 1);
-        return environment_texel(size, texel).w * load_light(LIGHT_COUNT - 1u).pmf;
+        return environment_texel(size, texel).w * load_light(frame.light_count - 1u).pmf;
     }
 #endif
     return 0.0;

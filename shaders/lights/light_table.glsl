@@ -1,6 +1,7 @@
 // The table of lights (layout: shared/scene_layout.h) and the choice of one by power.
 #pragma once
 #include "geometry/scene.glsl"
+#include "lib/frame.glsl"
 
 #ifdef FX_LIGHTS
 uniform usamplerBuffer lights;
@@ -35,8 +36,8 @@ Light load_light(uint index)
 // A light with probability Light.pmf. Source: Vose 1991 (alias method).
 Light choose_light(float u)
 {
-    const float scaled = u * float(LIGHT_COUNT);
-    const uint slot = min(uint(scaled), LIGHT_COUNT - 1u);
+    const float scaled = u * float(frame.light_count);
+    const uint slot = min(uint(scaled), frame.light_count - 1u);
     const Light light = load_light(slot);
     if (scaled - float(slot) < light.alias_threshold || light.alias_index == slot)
         return light;

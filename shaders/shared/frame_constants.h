@@ -1,5 +1,5 @@
-// FrameConstants: what every pass may know about the current frame. Bound as uniform block `frame_block`.
-// Written once a frame by View::render(); read-only in shaders.
+// FrameConstants: what every pass may know about the current frame. Bound as uniform block
+// `frame_block`. Written once a frame by View::render(); read-only in shaders.
 #pragma once
 #include "shared/host_device.h"
 
@@ -8,9 +8,9 @@ SHARED_BEGIN
 // A pinhole camera as the frame of its rays: pixel (x, y) looks along
 // forward + ndc.x * right - ndc.y * up, with ndc in [-1, 1] from the picture's top left.
 struct CameraConstants {
-    vec3 position;          // world space [m]
+    vec3 position;  // world space [m]
     float pixel_footprint;  // height of a pixel at view depth 1 [m]
-    vec3 forward;           // unit
+    vec3 forward;  // unit
     float pad0;
     vec3 right;  // half the picture's width at view depth 1
     float pad1;
@@ -23,11 +23,12 @@ struct FrameConstants {
     CameraConstants prev_camera;  // last frame's; equals camera when there was none
 
     vec3 background;  // radiance of a ray that leaves the scene [W/(m^2 sr)]
-    uint first_sample;  // samples a pixel since the view was cut; with seed the source of all randomness
+    uint first_sample;  // samples a pixel since the view was cut; with seed the source of all
+                        // randomness
 
     uvec2 extent;  // render resolution [px]
     uint seed;
-    uint pad0;
+    uint light_count;  // that can be chosen; 0: a scene without, in a program with
 };
 
 SHARED_END

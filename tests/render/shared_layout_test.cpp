@@ -54,7 +54,7 @@ void main() { results[0] = vec4(frame.camera.position, 0.0); }
     expected["frame.first_sample"] = offsetof(FrameConstants, first_sample);
     expected["frame.extent"] = offsetof(FrameConstants, extent);
     expected["frame.seed"] = offsetof(FrameConstants, seed);
-    expected["frame.pad0"] = offsetof(FrameConstants, pad0);
+    expected["frame.light_count"] = offsetof(FrameConstants, light_count);
     EXPECT_EQ(member_offsets(program.id()), expected);
     EXPECT_EQ(sizeof(FrameConstants) % 16, 0U);
 }

@@ -38,14 +38,14 @@ void main()
 std::vector<DeviceHit> trace_on_device(const TestScene& scene, const std::vector<TestRay>& rays)
 {
     add_shader_file("tests/trace", kTraceShader);
-    const Program program(load_shader_source("tests/trace", scene.shared.inputs.defines));
+    const Program program(load_shader_source("tests/trace", scene.inputs.defines));
     std::vector<glm::vec4> texels;
     for (const TestRay& ray : rays) {
         texels.emplace_back(ray.origin, 0);
         texels.emplace_back(ray.direction, 0);
     }
     Buffer buffer("rays", std::as_bytes(std::span<const glm::vec4>(texels)));
-    Inputs inputs = scene.shared.inputs.buffers;
+    Inputs inputs = scene.inputs.buffers;
     inputs["rays"] = buffer.texture(GL_RGBA32F);
     std::vector<DeviceHit> hits;
     for (const glm::vec4& r : run_compute(program, inputs, rays.size(), rays.size()))

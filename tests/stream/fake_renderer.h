@@ -21,7 +21,10 @@ public:
     explicit FakeRenderer(std::chrono::milliseconds draw_time = std::chrono::milliseconds(0));
     ~FakeRenderer() override;
 
-    const RendererDescription& description() const override { return description_; }
+    std::shared_ptr<const RendererDescription> description() const override
+    {
+        return std::make_shared<const RendererDescription>(description_);
+    }
     void attach(std::shared_ptr<FrameSource> source) override;
     void detach(const std::shared_ptr<FrameSource>& source) override;
     void wake() override;

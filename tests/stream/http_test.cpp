@@ -131,7 +131,7 @@ TEST(Http, SnapshotIsAPngOfTheSizeAskedFor)
     const HttpReply reply = http_request(server.port(), "/snapshot.png");
     EXPECT_EQ(reply.result_int(), 200);
     EXPECT_EQ(reply["Content-Type"], "image/png");
-    EXPECT_EQ(size_of_png(reply.body()), server.renderer().description().default_extent);
+    EXPECT_EQ(size_of_png(reply.body()), server.renderer().description()->default_extent);
     EXPECT_EQ(size_of_png(http_request(server.port(), "/snapshot.png?width=20&height=10").body()),
         (Extent{20, 10}));
 }

@@ -14,18 +14,17 @@ Scene without_neutral(Scene scene)
     return scene;
 }
 
-SharedScene share(ProgramCache& programs, const GpuScene& gpu_scene, const Scene& scene)
-{
-    return {programs, {gpu_scene.textures(), gpu_scene.defines()}, look_of(scene), true, true};
-}
-
 }  // namespace
 
 TestScene::TestScene(Scene s)
     : scene(without_neutral(std::move(s)))
-    , gpu_scene_(scene)
-    , shared(share(programs_, gpu_scene_, scene))
+    , gpu_scene_(std::make_shared<GpuScene>(scene))
+    , scene_programs_(programs_, nullptr, nullptr, {})
+    , inputs{gpu_scene_->textures(), gpu_scene_->defines()}
+    , shared{programs_, scene_programs_, look_of(scene),
+          static_cast<std::uint32_t>(gpu_scene_->light_count()), true, true, 0}
 {
+    scene_programs_.follow(gpu_scene_);
 }
 
 void GlTest::SetUpTestSuite()

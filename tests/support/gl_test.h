@@ -19,9 +19,11 @@ public:
 
 private:
     ProgramCache programs_;
-    GpuScene gpu_scene_;
+    std::shared_ptr<GpuScene> gpu_scene_;
+    ScenePrograms scene_programs_;
 
 public:
+    SceneInputs inputs;  ///< What shaders that see the scene are compiled with and bound to.
     SharedScene shared;  ///< Refers to the members above.
 };
 

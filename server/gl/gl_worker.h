@@ -1,0 +1,41 @@
+// GlWorker: a thread with a context of its own that shares objects with another, for work that must
+// not hold up frames.
+#pragma once
+
+#include "server/gl/context.h"
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace farlight {
+
+class GlWorker {
+public:
+    /// `main` must outlive the worker. Throws DeviceError.
+    explicit GlWorker(const Context& main);
+    /// Waits for the job being done; one that waits is dropped.
+    ~GlWorker();
+    GlWorker(const GlWorker&) = delete;
+    GlWorker& operator=(const GlWorker&) = delete;
+
+    /// Does `job` as soon as the present one is done; takes the place of one that waits. What a job
+    /// throws is logged.
+    void request(std::function<void()> job);
+    /// Waits until there is nothing to do.
+    void wait();
+
+private:
+    void run();
+
+    std::unique_ptr<Context> context_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::function<void()> next_;
+    bool busy_ = false;
+    bool stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace farlight
