@@ -20,7 +20,6 @@ struct FrameInputs {
     Fog fog;
     float lens_radius = 0;  ///< [m], 0: pinhole.
     float focus_distance = 1;  ///< View depth [m], > 0.
-    bool antialiasing = false;
     glm::vec2 pixel_jitter{0};  ///< Of the primary rays from the pixels' middles [px].
 
     /// The same, for another variant of the scene's programs.
@@ -38,9 +37,7 @@ struct FrameInputs {
     {
         if (has_lens())
             add_lens_constants(pass);
-        if (antialiasing && !scene.calls_for("FX_ANTIALIASING"))
-            pass.define({{"FX_ANTIALIASING", "1"}});
-        if (antialiasing || scene.calls_for("FX_ANTIALIASING"))
+        if (scene.calls_for("FX_ANTIALIASING"))
             pass.constant("pixel_jitter", pixel_jitter);
     }
     void add_lens_constants(Pass& pass) const

@@ -90,8 +90,7 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
     const double focus = lens.focus_distance > 0 ? lens.focus_distance : target;
     inputs.lens_radius = static_cast<float>(lens.radius);
     inputs.focus_distance = focus > 0 ? static_cast<float>(focus) : 1.0F;
-    inputs.antialiasing = request.settings.antialiasing;
-    if (inputs.antialiasing && mean_frames_ > 0)
+    if (request.settings.antialiasing && mean_frames_ > 0)
         inputs.pixel_jitter = jitter_of(mean_frames_ - 1);
     return inputs;
 }
