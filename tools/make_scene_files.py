@@ -340,14 +340,14 @@ def write_many_lights(path):
   "description": "144 small lamps, each of which lights its own patch of the floor. Written by tools/make_scene_files.py.",
   "materials": {
     "white": { "albedo": [0.75, 0.75, 0.75] },
-    "amber lamp": { "albedo": [0, 0, 0], "emission": [60, 34, 10] },
-    "green lamp": { "albedo": [0, 0, 0], "emission": [12, 50, 20] },
-    "blue lamp": { "albedo": [0, 0, 0], "emission": [14, 24, 70] }
+    "amber lamp": { "albedo": [0, 0, 0], "emission": [36, 20.4, 6], "emits_both_sides": true },
+    "green lamp": { "albedo": [0, 0, 0], "emission": [7.2, 30, 12], "emits_both_sides": true },
+    "blue lamp": { "albedo": [0, 0, 0], "emission": [8.4, 14.4, 42], "emits_both_sides": true }
   },
   "objects": [
     %s
   ],
-  "camera": { "position": [0, 4.5, 10], "target": [0, 0.2, 0.5], "vertical_fov_degrees": 45 }
+  "camera": { "position": [0, 2.6, 9], "target": [0, 0.5, 0], "vertical_fov_degrees": 45 }
 }
 """ % ",\n    ".join(lines))
 
