@@ -52,7 +52,7 @@ protected:
     {
         const SamplingCase& c = GetParam();
         add_shader_file("tests/light_sampling", kShader);
-        Defines defines = on_device.shared.inputs.defines;
+        Defines defines = on_device.inputs.defines;
         defines.emplace_back(entry, "1");
         defines.emplace_back("BINS", std::to_string(kBins) + "u");
         defines.emplace_back("SECTORS", std::to_string(kSectors) + "u");
@@ -60,6 +60,7 @@ protected:
         const Program program(load_shader_source("tests/light_sampling", defines));
         shared::FrameConstants frame{};
         frame.background = on_device.scene.background;
+        frame.light_count = on_device.shared.light_count;
         const Buffer block(
             "frame", std::as_bytes(std::span<const shared::FrameConstants, 1>(&frame, 1)));
         if (const auto found = program.uniform_blocks().find("frame_block");
@@ -73,7 +74,7 @@ protected:
         set("normal", c.normal);
         set("axis", glm::normalize(c.axis));
         glProgramUniform1f(program.id(), glGetUniformLocation(program.id(), "opening"), c.opening);
-        return run_compute(program, on_device.shared.inputs.buffers, results, invocations);
+        return run_compute(program, on_device.inputs.buffers, results, invocations);
     }
 
     static constexpr const char* kShader = R"(#version 450
