@@ -55,8 +55,11 @@ vec4 interpolated_tangent(int triangle, vec3 weights)
 #ifdef FX_VERTEX_COLORS
 vec4 unpack_color(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
 
+// A scene without colours has a single texel of zeros, which stands for white.
 vec4 interpolated_color(int triangle, vec3 weights)
 {
+    if (textureSize(colors) < COLOR_TEXELS)
+        return vec4(1.0);
     const uvec4 a = fetch_attribute(colors, triangle * COLOR_TEXELS);
     const uvec4 b = fetch_attribute(colors, triangle * COLOR_TEXELS + 1);
     return weights.x * unpack_color(a.xy) + weights.y * unpack_color(a.zw) + weights.z * unpack_color(b.xy);
