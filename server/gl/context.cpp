@@ -2,6 +2,7 @@
 #include "server/gl/context.h"
 
 #include "server/gl/gl_error.h"
+#include "server/gl/sampler_slots.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -188,6 +189,8 @@ Context::Context(std::string_view selector)
             context_ = open.context;
             device_ = open.description;
             log_errors();
+            if (device_.software)
+                settle_sampler_slots();
             return;
         }
         tried += "\n  " + candidate.selector + " (" + open.description.name
@@ -222,6 +225,8 @@ void Context::make_current() const
         || eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
         throw DeviceError(device_.selector + ": its context cannot be made current");
     log_errors();
+    if (device_.software)
+        settle_sampler_slots();
 }
 
 }  // namespace farlight

@@ -101,7 +101,7 @@ void FrameGraph::begin_frame(Extent extent, std::vector<BlockInput> blocks)
 
 TextureHandle FrameGraph::create(const std::string& name, GLenum format)
 {
-    resources_.push_back({name, format, nullptr});
+    resources_.push_back({.name = name, .format = format, .kept = keeps_all_});
     return {static_cast<int>(resources_.size()) - 1};
 }
 
@@ -359,6 +359,15 @@ const GpuTexture& FrameGraph::texture(TextureHandle handle) const
     const Resource& resource = resources_[static_cast<std::size_t>(handle.index)];
     assert(resource.texture != nullptr && "not kept");
     return *resource.texture;
+}
+
+std::vector<std::pair<std::string, const GpuTexture*>> FrameGraph::written() const
+{
+    std::vector<std::pair<std::string, const GpuTexture*>> textures;
+    for (const Resource& resource : resources_)
+        if (resource.written && resource.texture != nullptr)
+            textures.emplace_back(resource.name, resource.texture.get());
+    return textures;
 }
 
 std::vector<TextureAllocation> FrameGraph::allocations() const

@@ -105,6 +105,9 @@ public:
     void forget_histories();
     /// The reference is valid until the next add_pass().
     Pass& add_pass(const std::string& name, const std::string& shader);
+    /// Every transient keeps its texture and content until the next begin_frame(): for those who
+    /// look inside.
+    void keep_all() { keeps_all_ = true; }
     /// Keeps a transient's content until the next begin_frame(), for readback.
     void keep(TextureHandle texture);
 
@@ -115,6 +118,9 @@ public:
     /// The texture behind a handle, after execute(), if it was kept or is a history.
     const GpuTexture& texture(TextureHandle handle) const;
     std::vector<TimedPass> collect_times() { return timer_.collect(); }
+    /// What the passes of the last executed frame wrote, in the order of declaration, if it was
+    /// kept.
+    std::vector<std::pair<std::string, const GpuTexture*>> written() const;
     /// Bytes of all textures held, and how many.
     std::size_t texture_bytes() const;
     std::vector<std::string> pass_names() const;
@@ -160,6 +166,7 @@ private:
 
     ProgramCache& programs_;
     bool strict_;
+    bool keeps_all_ = false;
     GpuTimer timer_;
     Extent extent_;
     std::vector<BlockInput> blocks_;

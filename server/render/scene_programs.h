@@ -72,9 +72,8 @@ private:
 std::vector<ProgramKey> programs_of(const DeclareFrame& declare, const SceneInputs& inputs);
 
 /// Dispatches a frame of no pixels, so that every program is compiled and the driver has made of it
-/// what it runs. Mesa's llvmpipe does that at the first dispatch, once for the way textures are
-/// bound in a first frame and once for later ones; its own cache hands the result to other
-/// contexts.
+/// what it runs. Mesa's llvmpipe does that at the first dispatch; its own cache hands the result to
+/// other contexts.
 void rehearse(
     ProgramCache& programs, const DeclareFrame& declare, const SceneInputs& inputs, bool software);
 

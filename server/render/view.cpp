@@ -47,6 +47,8 @@ View::View(const SharedScene& scene)
     , constants_("frame constants", object_bytes(shared::FrameConstants{}))
     , counters_("counters", object_bytes(std::uint32_t{0}))
 {
+    if (scene.keep_all)
+        graph_.keep_all();
 }
 
 /// Brings the counts of frames up to date with what changed since the last request.

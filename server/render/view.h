@@ -20,6 +20,7 @@ struct SharedScene {
     std::uint32_t light_count = 0;
     bool software = false;
     bool strict = false;  ///< See FrameGraph.
+    bool keep_all = false;  ///< Likewise.
     std::uint32_t version = 0;  ///< Counts scenes shown: pictures of two must not be averaged.
 };
 

@@ -22,7 +22,7 @@ TestScene::TestScene(Scene s)
     , scene_programs_(programs_, nullptr, nullptr, {})
     , inputs{gpu_scene_->textures(), gpu_scene_->defines()}
     , shared{programs_, scene_programs_, look_of(scene),
-          static_cast<std::uint32_t>(gpu_scene_->light_count()), true, true, 0}
+          static_cast<std::uint32_t>(gpu_scene_->light_count()), true, true}
 {
     scene_programs_.follow(gpu_scene_);
 }

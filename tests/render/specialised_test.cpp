@@ -1,0 +1,169 @@
+// A program with only the effects that a scene calls for gives the same bits as the one with all:
+// in every texture of every frame, histories and the picture included.
+#include "server/render/live_scene.h"
+#include "tests/support/gl_test.h"
+
+#include <filesystem>
+#include <iomanip>
+#include <random>
+#include <sstream>
+
+namespace farlight {
+namespace {
+
+constexpr int kFrames = 4;
+
+/// The general programs are compiled once for all tests.
+ProgramCache& programs_of_all_tests()
+{
+    static ProgramCache programs;
+    return programs;
+}
+
+struct Texels {
+    std::string name;
+    Extent extent;
+    std::vector<float> values;  ///< 4 a texel; integers as their bits.
+};
+
+Texels texels_of(const std::string& name, const GpuTexture& texture)
+{
+    const Extent extent = texture.extent();
+    Texels texels{name, extent, {}};
+    texels.values.resize(4UL * static_cast<std::size_t>(extent.width * extent.height));
+    const bool integer = texture.format() == GL_RGBA32UI;
+    glGetTextureImage(texture.id(), 0, integer ? GL_RGBA_INTEGER : GL_RGBA,
+        integer ? GL_UNSIGNED_INT : GL_FLOAT, static_cast<GLsizei>(texels.values.size() * 4),
+        texels.values.data());
+    return texels;
+}
+
+/// A scene on the device that any mask may draw.
+class Subject {
+public:
+    explicit Subject(Scene scene)
+        : loaded_(load_onto_device(std::move(scene)))
+        , scene_programs_(programs_of_all_tests(), nullptr, nullptr, {})
+        , shared_{programs_of_all_tests(), scene_programs_, loaded_.look,
+              static_cast<std::uint32_t>(loaded_.gpu->light_count()), true}
+    {
+        shared_.keep_all = true;
+        scene_programs_.follow(loaded_.gpu);
+    }
+
+    EffectMask mask() const { return scene_programs_.scene_mask(); }
+
+    /// Everything that all frames wrote, while the camera moves a little.
+    std::vector<Texels> draw(RenderSettings settings, const EffectChoice& effects) const
+    {
+        settings.effects = effects;
+        View view(shared_);
+        RenderRequest request = linear_request(*loaded_.scene, {40, 24}, settings);
+        const double step = 0.02 * glm::length(request.camera.target - request.camera.position);
+        std::vector<Texels> all;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            request.camera.position.x += step;
+            view.render(request);
+            for (const auto& [name, texture] : view.graph().written())
+                all.push_back(texels_of("frame " + std::to_string(frame) + " " + name, *texture));
+        }
+        return all;
+    }
+
+private:
+    LoadedScene loaded_;
+    ScenePrograms scene_programs_;
+    SharedScene shared_;
+};
+
+/// How many texels of the two differ in any bit, and the first that does; "" for none.
+std::string difference(const Texels& a, const Texels& b)
+{
+    std::size_t count = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < a.values.size(); i += 4)
+        if (std::memcmp(&a.values[i], &b.values[i], 16) != 0 && count++ == 0)
+            first = i;
+    if (count == 0)
+        return "";
+    std::ostringstream text;
+    text << a.name << " differs in " << count << " of " << a.values.size() / 4 << " texels, first ("
+         << first / 4 % static_cast<std::size_t>(a.extent.width) << ", "
+         << first / 4 / static_cast<std::size_t>(a.extent.width) << "):" << std::setprecision(9);
+    for (const Texels* texels : {&a, &b})
+        for (std::size_t k = 0; k < 4; ++k)
+            text << (k == 0 ? "  (" : " ") << texels->values[first + k] << (k == 3 ? ")" : "");
+    return text.str();
+}
+
+/// Textures of the same name come in the same order; `more` may have names that `less` lacks.
+void expect_equal(
+    const std::vector<Texels>& less, const std::vector<Texels>& more, const std::string& what)
+{
+    std::size_t compared = 0;
+    auto next = more.begin();
+    for (const Texels& texels : less) {
+        next = std::find_if(
+            next, more.end(), [&](const Texels& other) { return other.name == texels.name; });
+        ASSERT_NE(next, more.end()) << what << ": no texture " << texels.name;
+        // What follows from a difference differs too.
+        ASSERT_EQ(difference(texels, *next), "") << what;
+        ++next;
+        ++compared;
+    }
+    EXPECT_GT(compared, 4U * kFrames) << what;
+}
+
+EffectMask random_superset(EffectMask mask, std::mt19937& random)
+{
+    std::vector<std::string_view> names = mask.names();
+    for (const std::string_view name : EffectMask::general().names())
+        if (random() % 2 == 0)
+            names.push_back(name);
+    return EffectMask::of(names);
+}
+
+/// All shipped scenes where FARLIGHT_LONG_TESTS is set, else the first of each kind and the
+/// mixtures.
+std::vector<std::string> scene_names()
+{
+    if (std::getenv("FARLIGHT_LONG_TESTS") == nullptr)
+        return {"cornell_box", "four_spheres", "mesh", "fog_and_alpha", "lens_and_mirror",
+            "glass_in_fog", "normal_map", "environment", "everything"};
+    std::vector<std::string> names;
+    for (const auto& file :
+        std::filesystem::directory_iterator(std::string(FARLIGHT_SOURCE_DIR) + "/scenes"))
+        if (file.path().extension() == ".json"
+            && file.path().filename() != "farlight-scene.schema.json")
+            names.push_back(file.path().stem());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+class SpecialisedTest : public GlTest, public testing::WithParamInterface<std::string> { };
+
+TEST_P(SpecialisedTest, EqualsTheGeneralProgramBitForBit)
+{
+    const Subject subject(shipped_scene(GetParam() + ".json"));
+    const EffectChoice special{EffectChoice::Kind::kList, subject.mask()};
+    const EffectChoice general{EffectChoice::Kind::kGeneral, {}};
+    std::mt19937 random(static_cast<unsigned>(GetParam().size()) + 7);
+    const EffectChoice superset{EffectChoice::Kind::kList, random_superset(subject.mask(), random)};
+    for (const Denoiser denoiser : {Denoiser::kSvgf, Denoiser::kAccumulate}) {
+        RenderSettings settings;
+        settings.denoiser = denoiser;
+        const std::string with =
+            denoiser == Denoiser::kSvgf ? " with the denoiser" : " accumulating";
+        const auto expected = subject.draw(settings, general);
+        expect_equal(subject.draw(settings, special), expected, GetParam() + with);
+        if (denoiser == Denoiser::kSvgf)
+            expect_equal(subject.draw(settings, superset), expected,
+                GetParam() + " with the superset " + to_text(superset));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedTest, testing::ValuesIn(scene_names()),
+    [](const auto& test) { return test.param; });
+
+}  // namespace
+}  // namespace farlight
