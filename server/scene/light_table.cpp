@@ -1,7 +1,6 @@
 // Posing lights, their power, the alias table, packing.
 #include "server/scene/light_table.h"
 
-#include "server/scene/alias_table.h"
 #include "server/scene/environment.h"
 #include "server/scene/light_textures.h"
 
@@ -23,8 +22,8 @@ void scale(Light& light, const Light& rest, float by)
 
 }  // namespace
 
-LightTable::LightTable(
-    const Scene& scene, const TextureLayout& layout, std::vector<Light> area_lights)
+LightTable::LightTable(const Scene& scene, const TextureLayout& layout,
+    std::vector<Light> area_lights, std::size_t tree_from)
     : scene_(scene)
     , area_lights_(area_lights.size())
     , lights_(std::move(area_lights))
@@ -47,6 +46,11 @@ LightTable::LightTable(
         light.mean_luminance = luminance(glm::dvec3(scene.background) * packed.mean_radiance);
         lights_.push_back(light);
     }
+    for (std::uint32_t i = 0; i < lights_.size(); ++i)
+        if (lights_[i].kind < LIGHT_DIRECTIONAL)
+            placed_.push_back(i);
+    if (placed_.size() < tree_from)
+        placed_.clear();
     rest_ = lights_;
     update({}, {});
 }
@@ -58,14 +62,11 @@ void LightTable::update(std::span<const Light> shapes, const LightPose& pose)
     pose_punctual_lights(pose);
     if (scene_.environment)
         scale(lights_.back(), rest_.back(), pose.background);
-    double total = 0;
-    for (Light& light : lights_) {
-        light.power = light_power(light, scene_radius_);
-        total += light.power;
-    }
     for (Light& light : lights_)
-        light.pmf = total > 0 ? static_cast<float>(light.power / total) : 0;
-    pack();
+        light.power = light_power(light, scene_radius_);
+    choose_by_power();
+    if (!placed_.empty())
+        choose_by_tree();
 }
 
 void LightTable::pose_area_lights(std::span<const Light> shapes, const LightPose& pose)
@@ -93,12 +94,45 @@ void LightTable::pose_punctual_lights(const LightPose& pose)
     }
 }
 
-void LightTable::pack()
+void LightTable::choose_by_power()
 {
     std::vector<double> weights;
-    for (const Light& light : lights_)
+    double total = 0;
+    for (const Light& light : lights_) {
         weights.push_back(light.power);
-    const std::vector<AliasSlot> slots = alias_table(weights);
+        total += light.power;
+    }
+    for (Light& light : lights_)
+        light.pmf = total > 0 ? static_cast<float>(light.power / total) : 0;
+    trails_.assign(lights_.size(), 0);
+    pack(alias_table(weights));
+}
+
+void LightTable::choose_by_tree()
+{
+    double asked = 0;
+    std::vector<Light> placed;
+    for (const std::uint32_t i : placed_) {
+        asked += static_cast<double>(lights_[i].pmf);
+        placed.push_back(lights_[i]);
+    }
+    const LightTree tree = build_light_tree(placed, placed_);
+    for (std::size_t i = 0; i < placed_.size(); ++i) {
+        lights_[placed_[i]].pmf = static_cast<float>(asked);
+        trails_[placed_[i]] = tree.trails[i];
+    }
+    tree_.assign(1,
+        {tree.nodes.size() / LIGHT_NODE_TEXELS, lights_.size() - placed_.size(),
+            bits(static_cast<float>(asked)), 0});
+    tree_.insert(tree_.end(), tree.nodes.begin(), tree.nodes.end());
+    for (std::uint32_t i = 0; i < lights_.size(); ++i)
+        if (lights_[i].kind >= LIGHT_DIRECTIONAL)
+            tree_.emplace_back(i, 0, 0, 0);
+    pack(std::vector<AliasSlot>(lights_.size()));
+}
+
+void LightTable::pack(std::span<const AliasSlot> slots)
+{
     packed_.clear();
     for (std::size_t i = 0; i < lights_.size(); ++i) {
         const Light& light = lights_[i];
@@ -107,7 +141,7 @@ void LightTable::pack()
         packed_.push_back(texel(light.p0, bits(slots[i].threshold)));
         packed_.push_back(texel(light.edge_u, slots[i].alias));
         packed_.push_back(texel(light.edge_v, 0));
-        packed_.push_back(texel(light.radiance, 0));
+        packed_.push_back(texel(light.radiance, trails_[i]));
     }
 }
 
@@ -122,6 +156,8 @@ void LightTable::count_kinds(SceneContent& content) const
         case LIGHT_ENVIRONMENT: break;
         default: content.delta_lights += light.mean_luminance > 0 ? 1 : 0; break;
         }
+    if (!tree_.empty())
+        content.light_tree_nodes += tree_.front().x;
 }
 
 }  // namespace farlight

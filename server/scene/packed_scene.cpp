@@ -124,8 +124,8 @@ std::vector<std::pair<const char*, const Texels*>> PackedScene::tables() const
         {"uvs", &geometry.uvs[0]}, {"uvs1", &geometry.uvs[1]}, {"tangents", &geometry.tangents},
         {"colors", &geometry.colors}, {"materials", &materials},
         {"reflection_albedo", &reflection_albedo}, {"dielectric_albedo", &dielectric_albedo},
-        {"lights", &lights->lights()}, {"light_textures", &lights->textures()},
-        {"environment", &lights->environment()}};
+        {"lights", &lights->lights()}, {"light_tree", &lights->tree()},
+        {"light_textures", &lights->textures()}, {"environment", &lights->environment()}};
 }
 
 }  // namespace farlight

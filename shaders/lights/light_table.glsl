@@ -1,7 +1,6 @@
-// The table of lights (layout: shared/scene_layout.h) and the choice of one by power.
+// The table of lights (layout: shared/scene_layout.h).
 #pragma once
 #include "geometry/scene.glsl"
-#include "lib/frame.glsl"
 
 #ifdef FX_LIGHTS
 uniform usamplerBuffer lights;
@@ -10,37 +9,32 @@ struct Light {
     uint kind;
     bool emits_both_sides;
     uint texture_index;  // + 1, 0: none
-    float pmf;           // of choosing it
+    float pmf;           // of choosing it; with a tree, of asking the tree
     float area;          // one side [m^2]
     vec3 p0;
-    float alias_threshold;
     vec3 edge_u;
-    uint alias_index;
     vec3 edge_v;
     vec3 radiance;
+    uint trail;  // to its leaf in the tree
 };
 
 Light load_light(uint index)
 {
     const int at = int(index) * LIGHT_TEXELS;
     const uvec4 a = fetch_attribute(lights, at);
-    const uvec4 b = fetch_attribute(lights, at + 1);
-    const uvec4 c = fetch_attribute(lights, at + 2);
-    const uvec4 d = fetch_attribute(lights, at + 3);
     const uvec4 e = fetch_attribute(lights, at + 4);
     return Light(a.x & LIGHT_KIND_MASK, (a.x & LIGHT_EMITS_BOTH_SIDES) != 0u, a.y, uintBitsToFloat(a.z),
-        uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), uintBitsToFloat(b.w), uintBitsToFloat(c.xyz), c.w,
-        uintBitsToFloat(d.xyz), uintBitsToFloat(e.xyz));
+        uintBitsToFloat(a.w), uintBitsToFloat(fetch_attribute(lights, at + 1).xyz),
+        uintBitsToFloat(fetch_attribute(lights, at + 2).xyz), uintBitsToFloat(fetch_attribute(lights, at + 3).xyz),
+        uintBitsToFloat(e.xyz), e.w);
 }
 
-// A light with probability Light.pmf. Source: Vose 1991 (alias method).
-Light choose_light(float u)
+float load_light_pmf(uint index) { return uintBitsToFloat(fetch_attribute(lights, int(index) * LIGHT_TEXELS).z); }
+
+// Bits of the probability of keeping `slot` of the alias table, and the light to take otherwise.
+uvec2 light_alias(uint slot)
 {
-    const float scaled = u * float(frame.light_count);
-    const uint slot = min(uint(scaled), frame.light_count - 1u);
-    const Light light = load_light(slot);
-    if (scaled - float(slot) < light.alias_threshold || light.alias_index == slot)
-        return light;
-    return load_light(light.alias_index);
+    const int at = int(slot) * LIGHT_TEXELS;
+    return uvec2(fetch_attribute(lights, at + 1).w, fetch_attribute(lights, at + 2).w);
 }
 #endif

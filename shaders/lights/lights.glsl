@@ -3,6 +3,7 @@
 #pragma once
 #include "geometry/surface.glsl"
 #include "lights/area.glsl"
+#include "lights/choose.glsl"
 #include "lights/delta.glsl"
 #include "lights/environment.glsl"
 
@@ -11,7 +12,8 @@
 // u.x chooses the light, the others what there is to choose of it.
 LightSample sample_lights(vec3 position, vec3 normal, vec4 u)
 {
-    const Light light = choose_light(u.x);
+    float pmf;
+    const Light light = load_light(choose_light(position, normal, u, pmf));
     LightSample s = NO_LIGHT_SAMPLE;
 #if defined(FX_POLYGON_LIGHTS) || defined(FX_EMISSIVE_MESHES)
     // A texel's weights are resolved well enough by 12 bits each of the last number.
@@ -35,7 +37,7 @@ LightSample sample_lights(vec3 position, vec3 normal, vec4 u)
     if (light.kind == LIGHT_ENVIRONMENT)
         s = sample_environment(u.yzw);
 #endif
-    s.pdf = light.pmf > 0.0 ? s.pdf * light.pmf : 0.0;
+    s.pdf = pmf > 0.0 ? s.pdf * pmf : 0.0;
     return s;
 }
 
@@ -44,7 +46,8 @@ LightSample sample_lights(vec3 position, vec3 normal, vec4 u)
 float light_pdf(uint index, vec3 position, vec3 normal, vec3 hit_position, vec3 hit_normal)
 {
     const Light light = load_light(index);
-    return light.pmf > 0.0 ? light.pmf * area_light_pdf(light, position, hit_position, hit_normal) : 0.0;
+    const float pmf = light_pmf(light, position, normal);
+    return pmf > 0.0 ? pmf * area_light_pdf(light, position, hit_position, hit_normal) : 0.0;
 }
 #endif
 

@@ -21,6 +21,13 @@
 //                offset of the cosine to it (KHR_lights_punctual)
 //                directional: edge_v the way it goes, radiance is irradiance
 //                environment: none of these; there is one at most, the last light
+//                with a tree the pmf of a light that has a place is that of asking the tree; the last word of its
+//                radiance's texel is the way to its leaf, lowest bit first
+//   light_tree   LIGHT_TREE_HEADER_TEXELS: nodes (0: no tree), lights without a place, probability of asking the tree.
+//                Then LIGHT_NODE_TEXELS a node: center of the box and half its diagonal; axis of the directions its
+//                lights face and cosine of their angle to it; intensity, cosine of how far from these they shine, second
+//                child (the first follows its parent) or LIGHT_NODE_LEAF and light, 1 if any shines both ways. Then a
+//                texel a light without a place: its index
 //   light_textures  LIGHT_TEXTURE_TEXELS a light whose emission or opacity is textured: uv of p0, p0 + edge_u,
 //                p0 + edge_v for the emission, the same for the opacity; opacity, alpha cutoff (negative: none);
 //                texture reference of the emission; of the opacity (its A)
@@ -49,6 +56,9 @@
 #define COLOR_TEXELS 2
 #define LIGHT_TEXELS 5
 #define LIGHT_TEXTURE_TEXELS 8
+#define LIGHT_TREE_HEADER_TEXELS 1
+#define LIGHT_NODE_TEXELS 3
+#define LIGHT_NODE_LEAF 0x80000000u
 #define ENVIRONMENT_HEADER_TEXELS 4
 #define TEXTURE_TEXELS 2
 

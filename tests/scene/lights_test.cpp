@@ -4,6 +4,7 @@
 #include "server/scene/packed_scene.h"
 #include "shaders/shared/scene_layout.h"
 
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -260,6 +261,79 @@ TEST(LightTables, FollowTheirPose)
     const float dark[] = {0, 0};
     table.update({}, {dark, intensity, {}, 0});
     EXPECT_EQ(total(), 0);
+}
+
+/// The light that a trail leads to, and how many children lie on the way.
+std::pair<std::uint32_t, int> follow(const LightTree& tree, std::uint32_t trail)
+{
+    std::uint32_t node = 0;
+    for (int level = 0;; ++level) {
+        const std::uint32_t link = tree.nodes.at(node * LIGHT_NODE_TEXELS + 2).z;
+        if ((link & LIGHT_NODE_LEAF) != 0)
+            return {link & ~LIGHT_NODE_LEAF, level};
+        node = (trail & 1U) == 0 ? node + 1 : link;
+        trail >>= 1U;
+    }
+}
+
+/// Place of light i of n in a scene that a tree may stumble over.
+struct TreeCase {
+    const char* name;
+    std::size_t lights;
+    std::function<glm::vec3(std::size_t)> place;
+
+    friend void PrintTo(const TreeCase& c, std::ostream* out) { *out << c.name; }
+};
+
+class LightTreeTest : public testing::TestWithParam<TreeCase> { };
+
+TEST_P(LightTreeTest, EveryTrailLeadsToItsLight)
+{
+    const TreeCase& c = GetParam();
+    std::vector<Light> lights;
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = 0; i < c.lights; ++i) {
+        lights.push_back({.kind = LIGHT_POINT, .p0 = c.place(i), .mean_luminance = 1});
+        indices.push_back(static_cast<std::uint32_t>(7 + 2 * i));
+    }
+    const LightTree tree = build_light_tree(lights, indices);
+    EXPECT_EQ(tree.nodes.size(), (2 * c.lights - 1) * LIGHT_NODE_TEXELS);
+    for (std::size_t i = 0; i < c.lights; ++i) {
+        const auto [light, level] = follow(tree, tree.trails[i]);
+        EXPECT_EQ(light, indices[i]);
+        EXPECT_LE(level, 32);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, LightTreeTest,
+    testing::Values(TreeCase{"One", 1, [](std::size_t) { return glm::vec3(1); }},
+        TreeCase{"AllInOnePlace", 1000, [](std::size_t) { return glm::vec3(1, 2, 3); }},
+        // Each twice as far as the one before: cut by place, every node would lose one light only.
+        TreeCase{"DoublingDistances", 200,
+            [](std::size_t i) {
+                return glm::vec3(std::ldexp(1.0F, static_cast<int>(i % 120)), 0, 0);
+            }},
+        TreeCase{
+            "Grid", 4096, [](std::size_t i) { return glm::vec3(i % 16, i / 16 % 16, i / 256); }}),
+    [](const auto& test) { return test.param.name; });
+
+/// Joining lights loses nothing: the root shines wherever a light does.
+TEST(LightTrees, BoundTheirLights)
+{
+    Scene scene = scene_with({"light", glm::vec3(0), glm::vec3(1)});
+    scene.objects.push_back({"up", 1, Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});  // faces +z
+    scene.objects.push_back({"aside", 1, Quad{{2, 0, 0}, {0, 1, 0}, {0, 0, 1}}});  // faces +x
+    const PackedScene packed = pack_scene(scene);
+    const std::uint32_t indices[] = {0, 1};
+    const LightTree tree = build_light_tree(packed.lights->all(), indices);
+    const glm::vec4 place = glm::uintBitsToFloat(tree.nodes[0]);
+    const glm::vec4 cone = glm::uintBitsToFloat(tree.nodes[1]);
+    EXPECT_NEAR(glm::length(glm::vec3(place) - glm::vec3(1, 0.5F, 0.5F)), 0, 1e-6);
+    EXPECT_NEAR(place.w, std::sqrt(6.0) / 2, 1e-6);
+    EXPECT_NEAR(glm::dot(glm::vec3(cone), glm::vec3(0, 0, 1)), std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(glm::dot(glm::vec3(cone), glm::vec3(1, 0, 0)), std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(cone.w, std::sqrt(0.5), 1e-6);
+    EXPECT_NEAR(glm::uintBitsToFloat(tree.nodes[2].x), 2, 1e-6);
 }
 
 }  // namespace
