@@ -131,12 +131,12 @@ const Json* gltf_extension(const Json& object, const char* name)
     return found == extensions->end() ? nullptr : &*found;
 }
 
-GltfContainer open_gltf_container(const std::filesystem::path& file)
+GltfContainer open_gltf_container(std::string file_bytes, const std::filesystem::path& file)
 {
     GltfContainer container;
     container.root = {file.string(), {}};
     container.folder = file.parent_path();
-    const std::string& bytes = container.storage.emplace_back(read_file(file));
+    const std::string& bytes = container.storage.emplace_back(std::move(file_bytes));
     Chunks chunks{bytes, std::nullopt};
     if (bytes.starts_with("glTF"))
         chunks = split_glb(bytes, container.root);

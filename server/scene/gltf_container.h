@@ -39,10 +39,10 @@ struct GltfContainer {
     ByteSpan keep(std::string bytes);
 };
 
-/// Throws SceneError for a broken container, a document that breaks the schema or requires an
+/// `bytes` are those of `file`, which is not read. Throws SceneError for a broken container, a document that breaks the schema or requires an
 /// extension that is not read, a buffer's file that is missing or too short. Reads no file but the
 /// buffers'.
-GltfContainer open_gltf_container(const std::filesystem::path& file);
+GltfContainer open_gltf_container(std::string bytes, const std::filesystem::path& file);
 
 /// object["extensions"][name], or null.
 const nlohmann::json* gltf_extension(const nlohmann::json& object, const char* name);

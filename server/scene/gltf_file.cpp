@@ -8,6 +8,7 @@
 #include "server/scene/gltf_material.h"
 #include "server/scene/gltf_objects.h"
 #include "server/scene/gltf_views.h"
+#include "server/scene/json_text.h"
 
 #include <algorithm>
 
@@ -166,7 +167,12 @@ bool is_gltf(const std::filesystem::path& file)
 
 GltfScene load_gltf(const std::filesystem::path& file)
 {
-    GltfContainer gltf = open_gltf_container(file);
+    return parse_gltf(read_file(file), file);
+}
+
+GltfScene parse_gltf(std::string bytes, const std::filesystem::path& file)
+{
+    GltfContainer gltf = open_gltf_container(std::move(bytes), file);
     check_gltf(gltf);
     read_gltf_views(gltf);
     return Reader(gltf).read();

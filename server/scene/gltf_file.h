@@ -16,6 +16,9 @@ struct GltfScene {
 /// Throws SceneError.
 GltfScene load_gltf(const std::filesystem::path& file);
 
+/// The same for a file already in memory; other files that it names lie beside `file`.
+GltfScene parse_gltf(std::string bytes, const std::filesystem::path& file);
+
 /// Whether the extension is one of a glTF file, whatever its case.
 bool is_gltf(const std::filesystem::path& file);
 

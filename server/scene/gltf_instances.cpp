@@ -47,7 +47,7 @@ void check_names(const Scene& file, const GltfInstance& instance, const ScenePla
         names += (names.empty() ? "" : ", ") + material.name;
     for (const auto& [name, index] : instance.material_by_name)
         if (std::none_of(file.materials.begin(), file.materials.end(),
-                [&](const Material& material) { return material.name == name; }))
+                [&wanted = name](const Material& material) { return material.name == wanted; }))
             refuse(place / "materials" / name, "a name that no material of the file has",
                 "one of " + names);
 }

@@ -2,6 +2,8 @@
 // valijson's messages name its own internals.
 #include "server/scene/json_schema.h"
 
+#include <map>
+#include <mutex>
 #include <optional>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -99,26 +101,43 @@ void refuse_keys(const Json& value, const Json& part, const ScenePlace& place)
         described_part->at("description").get_ref<const std::string&>());
 }
 
+/// Read once a text, as that takes as long as many a scene.
+struct ParsedSchema {
+    explicit ParsedSchema(std::string_view text) : document(Json::parse(text))
+    {
+        valijson::SchemaParser(valijson::SchemaParser::kDraft7)
+            .populateSchema(valijson::adapters::NlohmannJsonAdapter(document), schema);
+    }
+
+    Json document;
+    valijson::Schema schema;
+};
+
+/// Texts are embedded ones: a text's place stands for it.
+const ParsedSchema& parsed(std::string_view text)
+{
+    static std::mutex mutex;
+    static std::map<const char*, ParsedSchema> known;
+    const std::lock_guard lock(mutex);
+    return known.try_emplace(text.data(), text).first->second;
+}
+
 }  // namespace
 
 void check_schema(const Json& document, std::string_view schema_text, const std::string& file)
 {
-    const Json schema_document = Json::parse(schema_text);
-    valijson::Schema schema;
-    valijson::SchemaParser(valijson::SchemaParser::kDraft7)
-        .populateSchema(valijson::adapters::NlohmannJsonAdapter(schema_document), schema);
-
+    const ParsedSchema& schema = parsed(schema_text);
     valijson::ValidationResults results;
     valijson::Validator validator;
     const valijson::adapters::NlohmannJsonAdapter target(document);
-    if (validator.validate(schema, target, &results))
+    if (validator.validate(schema.schema, target, &results))
         return;
     std::optional<std::vector<std::string>> innermost;
     for (const auto& error : results)
         if (!innermost || error.context.size() > innermost->size())
             innermost = error.context;
     refuse_at(
-        tokens_of(innermost.value_or(std::vector<std::string>{})), document, schema_document, file);
+        tokens_of(innermost.value_or(std::vector<std::string>{})), document, schema.document, file);
 }
 
 }  // namespace farlight
