@@ -138,11 +138,12 @@ private:
                          .constant("svgf_moments_alpha", settings_.svgf_moments_alpha);
         for (std::size_t i = 0; i < past_.size(); ++i)
             pass.read(kPrevious[i], past_[i].previous);
+        if (is(specular_kind()))
+            pass.read("in_position", gbuffer_.position);
         if (is(scattered_kind()))
             pass.read("prev_fog_way", gbuffer_.prev_fog_way);
         else
             pass.read("in_identity", gbuffer_.identity)
-                .read("in_position", gbuffer_.position)
                 .read("in_motion", gbuffer_.motion)
                 .read("prev_surface", gbuffer_.prev_surface)
                 .read("prev_identity", gbuffer_.prev_identity)

@@ -6,7 +6,7 @@
 struct Past {
     bool exists;
     vec2 pixel;
-    vec3 position;  // world space [m]
+    vec3 position;  // where the surface was last frame [m]
     vec3 geometric_normal;
     vec3 shading_normal;
     uvec2 ids;
@@ -49,7 +49,6 @@ bool lit(ivec2 px) { return true; }
 
 uniform usampler2D in_surface;
 uniform usampler2D in_identity;
-uniform sampler2D in_position;
 uniform sampler2D in_motion;
 uniform usampler2D prev_surface;
 uniform usampler2D prev_identity;
@@ -65,7 +64,7 @@ Past past_of_surface(ivec2 px)
     Past p;
     p.exists = identity.w != 0u && motion.w > 0.0;
     p.pixel = vec2(px) + 0.5 + motion.xy;
-    p.position = texelFetch(in_position, px, 0).xyz;
+    p.position = frame.prev_camera.position + (depth + motion.z) * camera_direction(frame.prev_camera, p.pixel);
     p.geometric_normal = unpack_octahedral(identity.z);
     p.shading_normal = unpack_octahedral(surface.w);
     p.ids = identity.xy;
@@ -97,6 +96,7 @@ bool lit(ivec2 px) { return texelFetch(in_identity, px, 0).w != 0u; }
 #ifdef SIGNAL_SPECULAR
 
 uniform sampler2D in_light;
+uniform sampler2D in_position;
 uniform sampler2D in_reflectance;  // a: GGX alpha, negative where nothing is specular
 
 // How far away what is mirrored lies, from the neighbourhood: the pixel's own sample may have missed the lobe.
@@ -112,13 +112,13 @@ float reflected_distance(ivec2 px)
 }
 
 // Mean curvature of the surface [1/m], positive where it bulges: how much its normal turns towards the neighbours.
-float curvature(ivec2 px, Past p)
+float curvature(ivec2 px, vec3 position, Past p)
 {
     float sum = 0.0;
     float count = 0.0;
     for (int i = 0; i < 4; ++i) {
         const ivec2 q = px + (ivec2(i & 1, i >> 1) * 2 - 1);
-        const vec3 way = texelFetch(in_position, q, 0).xyz - p.position;
+        const vec3 way = texelFetch(in_position, q, 0).xyz - position;
         const vec3 turn = unpack_octahedral(texelFetch(in_surface, q, 0).w) - p.shading_normal;
         const bool same = inside_frame(q) && texelFetch(in_identity, q, 0).xy == p.ids && dot(way, way) > 0.0
             && dot(turn, turn) <= 0.25;
@@ -135,19 +135,20 @@ Past past_of(ivec2 px)
     Past p = past_of_surface(px);
     const float alpha = texelFetch(in_reflectance, px, 0).a;
     p.key = alpha;
+    const vec3 position = texelFetch(in_position, px, 0).xyz;
     const float distance = reflected_distance(px);
-    const float bent = 1.0 + 2.0 * curvature(px, p) * distance;
+    const float bent = 1.0 + 2.0 * curvature(px, position, p) * distance;
     // A hollow mirror beyond its focus turns the image over: there the surface is as good a guess.
     const float image = bent > 0.05 ? distance / bent : 0.0;
-    const vec3 away = p.position - frame.camera.position;
+    const vec3 away = position - frame.camera.position;
     // From alpha 0.05 on the lobe begins to show more than one thing, at 0.25 nothing in it has an edge.
     const vec3 push = normalize(away) * image * (1.0 - smoothstep(0.05, 0.25, alpha));
-    const vec3 now = camera_project(frame.camera, p.position + push);
+    const vec3 now = camera_project(frame.camera, position + push);
     const vec2 still = texelFetch(in_motion, px, 0).xy;
     // Motion of the virtual image seen by the two cameras, and what the surface itself has moved.
-    const vec3 before = camera_project(frame.prev_camera, p.position + push);
+    const vec3 before = camera_project(frame.prev_camera, position + push);
     const vec2 camera_of_surface
-        = camera_project(frame.prev_camera, p.position).xy - camera_project(frame.camera, p.position).xy;
+        = camera_project(frame.prev_camera, position).xy - camera_project(frame.camera, position).xy;
     p.pixel = vec2(px) + 0.5 + (before.xy - now.xy) + (still - camera_of_surface);
     p.exists = p.exists && alpha >= 0.0 && before.z > 0.0;
     return p;
