@@ -3,6 +3,7 @@
 #include "server/scene/gltf_instances.h"
 
 #include "server/scene/material_textures.h"
+#include "server/scene/scene_json_values.h"
 
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
@@ -42,14 +43,13 @@ std::uint32_t material_of(const Material& material, std::uint32_t own, const Glt
 
 void check_names(const Scene& file, const GltfInstance& instance, const ScenePlace& place)
 {
-    std::string names;
+    std::vector<std::string> names;
     for (const Material& material : file.materials)
-        names += (names.empty() ? "" : ", ") + material.name;
-    for (const auto& [name, index] : instance.material_by_name)
-        if (std::none_of(file.materials.begin(), file.materials.end(),
-                [&wanted = name](const Material& material) { return material.name == wanted; }))
-            refuse(place / "materials" / name, "a name that no material of the file has",
-                "one of " + names);
+        names.push_back(material.name);
+    for (const auto& replaced : instance.material_by_name)
+        if (std::find(names.begin(), names.end(), replaced.first) == names.end())
+            refuse(place / "materials" / replaced.first, "a name that no material of the file has",
+                one_of(names, "the file's materials"));
 }
 
 }  // namespace

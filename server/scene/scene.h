@@ -120,7 +120,7 @@ struct MorphTarget {
 
 /// Triangles in object space, one material for all (a glTF primitive becomes one mesh).
 /// A list that is not empty has one element a position.
-struct Mesh {
+struct Mesh {  // NOLINT: clang's implicit copy of `uvs` counts with a reserved name
     std::string name;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;  ///< Unit shading normals; empty: flat.

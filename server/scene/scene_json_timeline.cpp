@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <glm/gtc/quaternion.hpp>
+#include <tuple>
 
 namespace farlight {
 
@@ -118,7 +119,11 @@ private:
         std::string kind;  // "object", "light", ...
         std::string name;
         Quantity quantity;
-        auto operator<=>(const Subject&) const = default;
+        bool operator<(const Subject& other) const
+        {
+            return std::tie(kind, name, quantity)
+                < std::tie(other.kind, other.name, other.quantity);
+        }
     };
 
     static Subject subject_of(const Json& event, const ScenePlace& place);

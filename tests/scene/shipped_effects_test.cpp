@@ -109,10 +109,15 @@ TEST(ShippedEffects, EverySceneIsListed)
 TEST(ShippedEffects, OneSceneCallsForAllThatScenesCanCallFor)
 {
     const Names everything = effects_of("everything");
-    for (const Effect& effect : effect_registry()) {
-        const bool by_scene = effect.setting.empty() && effect.name != "light_tree";
-        EXPECT_EQ(everything.contains(std::string(effect.name)), by_scene) << effect.name;
-    }
+    for (const Effect& effect : effect_registry())
+        EXPECT_EQ(everything.contains(std::string(effect.name)), effect.setting.empty())
+            << effect.name;
+}
+
+TEST(ShippedEffects, ManyLightsCallForATree)
+{
+    EXPECT_TRUE(effects_of("many_lights").contains("light_tree"));
+    EXPECT_FALSE(effects_of("cornell_box").contains("light_tree"));
 }
 
 }  // namespace
