@@ -90,17 +90,18 @@ double cosine_at(double coordinate, double alpha)
 /// Cells with their four corners from `value(x, y)` on nodes over [0, 1]^2; x runs fastest.
 void append_cells(Texels& texels, int nodes, const std::function<double(double, double)>& value)
 {
-    std::vector<float> at(static_cast<std::size_t>(nodes * nodes));
+    const auto count = static_cast<std::size_t>(nodes);
     const double last = nodes - 1;
+    std::vector<float> at;
+    at.reserve(count * count);
     for (int j = 0; j < nodes; ++j)
         for (int i = 0; i < nodes; ++i)
-            at[static_cast<std::size_t>(j * nodes + i)] =
-                static_cast<float>(value(i / last, j / last));
-    for (int j = 0; j + 1 < nodes; ++j)
-        for (int i = 0; i + 1 < nodes; ++i) {
-            const float* corner = &at[static_cast<std::size_t>(j * nodes + i)];
+            at.push_back(static_cast<float>(value(i / last, j / last)));
+    for (std::size_t j = 0; j + 1 < count; ++j)
+        for (std::size_t i = 0; i + 1 < count; ++i) {
+            const float* corner = &at[j * count + i];
             texels.push_back(glm::floatBitsToUint(
-                glm::vec4(corner[0], corner[1], corner[nodes], corner[nodes + 1])));
+                glm::vec4(corner[0], corner[1], corner[count], corner[count + 1])));
         }
 }
 

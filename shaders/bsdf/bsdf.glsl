@@ -261,7 +261,7 @@ BsdfSample bsdf_sample(Bsdf b, vec3 viewer, vec4 u)
 #endif
 #ifdef SHADING_NORMAL_DIFFERS
     const float height = dot(b.geometric_normal, wi);
-    if ((height > 0.0) == s.transmitted)
+    if (!lost && (height > 0.0) == s.transmitted)
         wi -= 2.0 * height * b.geometric_normal;
 #endif
     const BsdfValue v = bsdf_evaluate(b, wo, wi);

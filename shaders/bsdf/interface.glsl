@@ -138,15 +138,22 @@ struct InterfaceSample {
 // u: xy the facet, z reflection or transmission.
 InterfaceSample sample_interface(Interface s, vec3 wo, vec3 u)
 {
-    vec3 h = vec3(0.0, 0.0, 1.0);
+    // Smooth, in the frame of the surface.
+    precise float cos_h = wo.z;
+    precise vec3 up = mirrored(wo);
+    precise vec3 down = vec3(-wo.xy / s.eta, -refracted_cosine(wo.z, s.eta));
 #ifdef FX_ROUGH_DIELECTRIC
-    const vec3 facet = ggx_sample_visible_normal(wo, max(s.alpha, GGX_ALPHA_MIN), u.xy);
-    h = s.alpha > 0.0 ? facet : h;
+    const vec3 h = ggx_sample_visible_normal(wo, max(s.alpha, GGX_ALPHA_MIN), u.xy);
+    if (s.alpha > 0.0) {
+        cos_h = clamp(dot(wo, h), 0.0, 1.0);
+        up = reflected(wo, h);
+        down = refracted(wo, h, s.eta);
+    }
 #endif
-    const vec3 r = reflectance(s, clamp(dot(wo, h), 0.0, 1.0));
+    if (s.thin)
+        down = vec3(up.xy, -up.z);
+    const vec3 r = reflectance(s, cos_h);
     const float p = reflection_probability(s, r);
-    const vec3 up = reflected(wo, h);
-    const vec3 down = s.thin ? vec3(up.xy, -up.z) : refracted(wo, h, s.eta);
     InterfaceSample result;
     result.transmitted = !(u.z < p);
     result.wi = result.transmitted ? down : up;

@@ -7,8 +7,6 @@
 #include "expect.glsl"
 #include "bsdf/bsdf.glsl"
 
-// No table is bound, so lobes are single scattering or as if lossless.
-
 ShadedMaterial conductor(float alpha)
 {
     ShadedMaterial m;

@@ -19,19 +19,27 @@ Bsdf probed(out vec3 wo)
     m.albedo = a.rgb;
     m.emission = vec3(0.0);
     m.shading_normal = vec3(0.0, 0.0, 1.0);
+#ifdef FX_UNLIT
     m.unlit = false;
+#endif
+#if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC)
     m.metallic = a.w;
     m.alpha = alpha_of_probe(b.x);
     m.specular = b.y;
     m.ior = max(b.z, 1.0 / b.z);
     m.specular_color = c.rgb;
+#endif
+#ifdef FX_DIELECTRIC
     m.transmission = b.w;
     m.thin_walled = c.w != 0.0;
     m.absorption = vec3(0.0);
     m.priority = 0;
+#endif
+#ifdef FX_CLEARCOAT
     m.clearcoat = d.x;
     m.clearcoat_alpha = alpha_of_probe(d.y);
     m.clearcoat_normal = normalize(vec3(parameter(5).xy, 1.0));
+#endif
     wo = vec3(sqrt(max(0.0, 1.0 - d.z * d.z)), 0.0, d.z);
     return make_bsdf(m, e.xyz, wo, b.z);
 }
@@ -48,6 +56,18 @@ void main()
     const bool usable = max_component(s.weight) > 0.0;
     results[2u * i] = vec4(s.wi, usable ? (s.delta ? 2.0 : 1.0) : 0.0);
     results[2u * i + 1u] = vec4(s.weight, s.pdf);
+}
+#elif defined(PROBE_VALUES)
+// Two texels a random direction all around: diffuse value and pdf, specular value.
+void main()
+{
+    const uint i = gl_GlobalInvocationID.x;
+    vec3 wo;
+    const Bsdf b = probed(wo);
+    const vec2 u = random4(uvec2(i, 1u), uint(parameter(4).w), 0u, 0u, SLOT_LIGHT).xy;
+    const BsdfValue v = bsdf_evaluate(b, wo, sample_cone(u, 2.0));
+    results[2u * i] = vec4(v.diffuse, v.pdf);
+    results[2u * i + 1u] = vec4(v.specular, 0.0);
 }
 #else
 // Bins around an axis on either side of the surface. Their radius x in [0, 1] grows with the logarithm of the angle:

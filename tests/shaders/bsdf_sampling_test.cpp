@@ -12,7 +12,9 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
+#include <cstring>
 #include <functional>
+#include <map>
 #include <numbers>
 
 namespace farlight {
@@ -22,9 +24,9 @@ using Vec3 = glm::dvec3;
 
 constexpr std::size_t kSamples = 1U << 17U;
 
-constexpr std::uint32_t kRings = 24;
-constexpr std::uint32_t kSectors = 16;
-constexpr std::size_t kBins = 2U * kRings * kSectors;
+constexpr std::size_t kRings = 24;
+constexpr std::size_t kSectors = 16;
+constexpr std::size_t kBins = 2 * kRings * kSectors;
 
 /// A material, how it is seen, and what is known of it.
 struct BsdfCase {
@@ -114,24 +116,43 @@ struct Family {
 
 class BsdfSampling : public GlTest, public testing::WithParamInterface<Family> {
 protected:
-    /// With every effect compiled in.
-    static const Program& program(bool samples)
+    using Macros = std::vector<std::string_view>;
+
+    static const Program& program(const Macros& macros, const char* mode)
     {
-        static const auto compile = [](const char* mode) {
+        static std::map<std::pair<Macros, std::string>, std::unique_ptr<Program>> programs;
+        std::unique_ptr<Program>& known = programs[{macros, mode}];
+        if (known == nullptr) {
             add_shader_file("tests/bsdf_probe",
                 read_text(FARLIGHT_SOURCE_DIR "/tests/shaders/bsdf_probe.comp"));
-            Defines defines;
-            for (const std::string_view macro : EffectMask::general().macros())
+            Defines defines{{mode, "1"}};
+            for (const std::string_view macro : macros)
                 defines.emplace_back(macro, "1");
-            defines.emplace_back(mode, "1");
-            return load_shader_source("tests/bsdf_probe", defines);
-        };
-        static const Program sampler(compile("PROBE_SAMPLES"));
-        static const Program density(compile("PROBE_DENSITY"));
-        return samples ? sampler : density;
+            known = std::make_unique<Program>(load_shader_source("tests/bsdf_probe", defines));
+        }
+        return *known;
+    }
+    static Macros general() { return EffectMask::general().macros(); }
+    /// What the case calls for alone.
+    static Macros special(const BsdfCase& c)
+    {
+        const Material& m = c.material;
+        const bool sharp = m.roughness <= MIRROR_ROUGHNESS;
+        Macros macros;
+        if (m.metallic > 0 || m.specular > 0)
+            macros.emplace_back(sharp ? "FX_MIRROR" : "FX_ROUGH_REFLECTION");
+        if (m.transmission > 0)
+            macros.emplace_back("FX_DIELECTRIC");
+        if (m.transmission > 0 && !sharp)
+            macros.emplace_back("FX_ROUGH_DIELECTRIC");
+        if (m.clearcoat > 0)
+            macros.emplace_back("FX_CLEARCOAT");
+        if (c.tilt != glm::vec2(0) || c.coat_tilt != glm::vec2(0))
+            macros.emplace_back("FX_NORMAL_MAPS");
+        return macros;
     }
     static std::vector<glm::vec4> run(
-        const BsdfCase& c, bool samples, std::size_t outputs, std::size_t invocations)
+        const BsdfCase& c, const Program& on, std::size_t outputs, std::size_t invocations)
     {
         static Buffer reflection("reflection_albedo", bytes_of(reflection_albedo_table()));
         static Buffer dielectric("dielectric_albedo", bytes_of(dielectric_albedo_table()));
@@ -140,7 +161,7 @@ protected:
         const Inputs inputs{{"probe", probe.texture(GL_RGBA32UI)},
             {"reflection_albedo", reflection.texture(GL_RGBA32UI)},
             {"dielectric_albedo", dielectric.texture(GL_RGBA32UI)}};
-        return run_compute(program(samples), inputs, outputs, invocations);
+        return run_compute(on, inputs, outputs, invocations);
     }
     static std::span<const std::byte> bytes_of(const Texels& texels)
     {
@@ -148,7 +169,8 @@ protected:
     }
     static std::vector<Drawn> draw(const BsdfCase& c)
     {
-        const std::vector<glm::vec4> texels = run(c, true, 2 * kSamples, kSamples);
+        const std::vector<glm::vec4> texels =
+            run(c, program(general(), "PROBE_SAMPLES"), 2 * kSamples, kSamples);
         std::vector<Drawn> drawn(kSamples);
         for (std::size_t i = 0; i < kSamples; ++i) {
             const glm::vec4& direction = texels[2 * i];
@@ -209,7 +231,8 @@ TEST_P(BsdfSampling, SamplesFollowTheirDensity)
 {
     const double threshold = 1 - std::pow(0.99, 1.0 / 200);
     for (const BsdfCase& c : GetParam().cases) {
-        const std::vector<glm::vec4> integrals = run(c, false, kBins, kBins);
+        const std::vector<glm::vec4> integrals =
+            run(c, program(general(), "PROBE_DENSITY"), kBins, kBins);
         std::vector<double> expected(kBins + 1);
         std::vector<double> found(kBins + 1);
         double total = 0;
@@ -252,6 +275,19 @@ TEST_P(BsdfSampling, WhiteFurnace)
             EXPECT_GE(mean[k], least) << c.name;
         }
     }
+}
+
+/// What a case does not call for may be compiled in or not: the bits are the same.
+TEST_P(BsdfSampling, SpecialisedIsGeneralBitForBit)
+{
+    constexpr std::size_t kFew = 1U << 14U;
+    for (const BsdfCase& c : GetParam().cases)
+        for (const char* mode : {"PROBE_SAMPLES", "PROBE_VALUES"}) {
+            const auto all = run(c, program(general(), mode), 2 * kFew, kFew);
+            const auto few = run(c, program(special(c), mode), 2 * kFew, kFew);
+            EXPECT_EQ(std::memcmp(all.data(), few.data(), all.size() * sizeof all[0]), 0)
+                << c.name << " " << mode;
+        }
 }
 
 Material white(float metallic, float roughness)

@@ -1,0 +1,169 @@
+// White things of every material under a white sky disappear: the path tracer, its textures, normal
+// maps and insides lose and gain nothing.
+//
+// Seeds are fixed; the bounds are 5 standard errors, which a fresh seed would exceed once in 1.7
+// million, and what the albedo tables are interpolated to, 2e-3 a bounce.
+#include "tests/support/gl_test.h"
+#include "tests/support/meshes.h"
+#include "tests/support/statistics.h"
+
+#include <functional>
+#include <random>
+
+namespace farlight {
+namespace {
+
+Material white(float metallic, float roughness)
+{
+    return {.name = "white", .albedo = glm::vec3(1), .metallic = metallic, .roughness = roughness};
+}
+
+Material plastic(float roughness)
+{
+    Material m = white(0, roughness);
+    m.specular = 1;
+    return m;
+}
+
+Material glass(float roughness)
+{
+    Material m = plastic(roughness);
+    m.transmission = 1;
+    return m;
+}
+
+Material thin(float roughness)
+{
+    Material m = glass(roughness);
+    m.thin_walled = true;
+    return m;
+}
+
+Material coated(Material m, float roughness)
+{
+    m.clearcoat = 1;
+    m.clearcoat_roughness = roughness;
+    return m;
+}
+
+/// Normals all over the upper hemisphere, down to 17 degrees above the surface.
+Image8 wild_normals()
+{
+    Image8 image{"normals", 16, 16, {}};
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> turn(0, 6.2831853F);
+    std::uniform_real_distribution<float> height(0.3F, 1);
+    for (int i = 0; i < 16 * 16; ++i) {
+        const float z = height(random);
+        const float phi = turn(random);
+        const float r = std::sqrt(1 - z * z);
+        const glm::vec3 n(r * std::cos(phi), r * std::sin(phi), z);
+        image.texels.emplace_back(glm::u8vec3(glm::round((n * 0.5F + 0.5F) * 255.0F)), 255);
+    }
+    return image;
+}
+
+Scene under_a_white_sky()
+{
+    Scene scene;
+    scene.background = glm::vec3(1);
+    scene.camera.position = {0, 1.2, 3};
+    scene.camera.target = {0, 0, 0};
+    return scene;
+}
+
+Scene ball(const Material& material)
+{
+    Scene scene = under_a_white_sky();
+    scene.materials.push_back(material);
+    scene.objects.push_back({"ball", 0, Sphere{{0, 0, 0}, 1}});
+    return scene;
+}
+
+/// A slanted square whose normal map sends light everywhere.
+Scene rough_relief(Material material)
+{
+    Scene scene = under_a_white_sky();
+    scene.images.push_back(wild_normals());
+    material.normal_texture.image = 0;
+    scene.materials.push_back(std::move(material));
+    scene.objects.push_back({"relief", 0, Quad{{-1.5, -0.3, 1}, {3, 0, 0}, {0, 0.6, -2}}});
+    return scene;
+}
+
+Scene smooth_bumps(const Material& material)
+{
+    Mesh mesh = bumpy_sphere(24, 12);
+    for (const glm::vec3& position : mesh.positions)
+        mesh.normals.push_back(glm::normalize(position));
+    Scene scene = scene_of(std::move(mesh));
+    scene.background = glm::vec3(1);
+    scene.materials[0] = material;
+    return scene;
+}
+
+/// A denser ball in a ball, and one that overlaps both.
+Scene nested()
+{
+    Scene scene = ball(glass(0));
+    Material dense = glass(0);
+    dense.ior = 2;
+    dense.priority = 1;
+    Material light = glass(0.3F);
+    light.ior = 1.2F;
+    light.priority = -1;
+    scene.materials.push_back(dense);
+    scene.materials.push_back(light);
+    scene.objects.push_back({"dense", 1, Sphere{{0.2, 0, 0}, 0.5}});
+    scene.objects.push_back({"overlapping", 2, Sphere{{0.9, 0.1, 0.2}, 0.6}});
+    return scene;
+}
+
+struct FurnaceCase {
+    const char* name;
+    Scene scene;
+    double tolerance = 2e-3;
+
+    friend void PrintTo(const FurnaceCase& c, std::ostream* out) { *out << c.name; }
+};
+
+class WhiteFurnace : public GlTest, public testing::WithParamInterface<FurnaceCase> { };
+
+TEST_P(WhiteFurnace, EverythingWhiteDisappears)
+{
+    const TestScene scene(GetParam().scene);
+    RenderRequest request = linear_request(scene.scene, {48, 36}, {});
+    request.settings.denoiser = Denoiser::kAccumulate;
+    request.settings.max_depth = 48;
+    request.settings.roulette_depth = 48;
+    request.settings.samples_per_pixel = 16;
+    View view(scene.shared);
+    RenderedFrame frame;
+    for (int i = 0; i < 4; ++i)
+        frame = view.render(request);
+    EXPECT_EQ(frame.nonfinite_count, 0U);
+    const Estimate estimate = mean_of(frame.image);
+    EXPECT_NEAR(estimate.mean, 1, 5 * estimate.standard_error + GetParam().tolerance);
+    EXPECT_LT(estimate.standard_error, 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Bsdf, WhiteFurnace,
+    testing::Values(FurnaceCase{"Metal", ball(white(1, 0.6F))},
+        FurnaceCase{"Mirror", ball(white(1, 0))}, FurnaceCase{"Plastic", ball(plastic(0.4F))},
+        FurnaceCase{"Polished", ball(plastic(0))},
+        FurnaceCase{"Coated", ball(coated(plastic(0.6F), 0.2F))},
+        FurnaceCase{"Lacquer", ball(coated(white(0, 1), 0))}, FurnaceCase{"Glass", ball(glass(0))},
+        FurnaceCase{"RoughGlass", ball(glass(0.5F)), 6e-3}, FurnaceCase{"Bubble", ball(thin(0))},
+        FurnaceCase{"FrostedBubble", ball(thin(0.5F))}, FurnaceCase{"Nested", nested(), 6e-3},
+        FurnaceCase{"LambertRelief", rough_relief(white(0, 1))},
+        FurnaceCase{"MetalRelief", rough_relief(white(1, 0.5F))},
+        FurnaceCase{"MirrorRelief", rough_relief(white(1, 0))},
+        FurnaceCase{"PlasticRelief", rough_relief(plastic(0.4F))},
+        FurnaceCase{"BubbleRelief", rough_relief(thin(0.4F))},
+        FurnaceCase{"LambertBumps", smooth_bumps(white(0, 1))},
+        FurnaceCase{"MetalBumps", smooth_bumps(white(1, 0.3F))},
+        FurnaceCase{"GlassBumps", smooth_bumps(glass(0)), 4e-3}),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace farlight
