@@ -69,17 +69,20 @@ void read_as(const Source& source, std::vector<Element>& out)
 template <typename Element> void read_all(const Source& source, std::vector<Element>& out)
 {
     switch (source.component_type) {
-    case kByte: return read_as<Element, std::int8_t>(source, out);
     case kUnsignedByte: return read_as<Element, std::uint8_t>(source, out);
-    case kShort: return read_as<Element, std::int16_t>(source, out);
     case kUnsignedShort: return read_as<Element, std::uint16_t>(source, out);
     case kUnsignedInt: return read_as<Element, std::uint32_t>(source, out);
-    default:
-        if constexpr (kOfFloats<Element>)  // as they are: float lanes have no gaps between
-            for (std::size_t i = 0; i < out.size(); ++i)
-                std::memcpy(&out[i], source.bytes + i * source.stride, sizeof(Element));
-        else
-            assert(!"floats where integers were checked");
+    default: break;
+    }
+    if constexpr (kOfFloats<Element>) {
+        if (source.component_type == kByte)
+            return read_as<Element, std::int8_t>(source, out);
+        if (source.component_type == kShort)
+            return read_as<Element, std::int16_t>(source, out);
+        for (std::size_t i = 0; i < out.size(); ++i)  // float lanes have no gaps between
+            std::memcpy(&out[i], source.bytes + i * source.stride, sizeof(Element));
+    } else {
+        assert(!"signed components where unsigned ones were checked");
     }
 }
 

@@ -39,9 +39,9 @@ struct GltfContainer {
     ByteSpan keep(std::string bytes);
 };
 
-/// `bytes` are those of `file`, which is not read. Throws SceneError for a broken container, a document that breaks the schema or requires an
-/// extension that is not read, a buffer's file that is missing or too short. Reads no file but the
-/// buffers'.
+/// `bytes` are those of `file`, which is not read. Throws SceneError for a broken container, a
+/// document that breaks the schema or requires an extension that is not read, a buffer's file that
+/// is missing or too short. Reads no file but the buffers'.
 GltfContainer open_gltf_container(std::string bytes, const std::filesystem::path& file);
 
 /// object["extensions"][name], or null.

@@ -27,7 +27,9 @@ glm::dmat4 matrix_of(const Json& values, const ScenePlace& place)
     glm::dmat4 matrix;
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
-            matrix[column][row] = values[static_cast<std::size_t>(4 * column + row)].get<double>();
+            matrix[column][row] =
+                values[4 * static_cast<std::size_t>(column) + static_cast<std::size_t>(row)]
+                    .get<double>();
     if (glm::row(matrix, 3) != glm::dvec4(0, 0, 0, 1))
         refuse(place, "a projective transform", "a last row of 0, 0, 0, 1");
     return matrix;
