@@ -50,9 +50,3 @@ float light_pdf(uint index, vec3 position, vec3 normal, vec3 hit_position, vec3 
     return pmf > 0.0 ? pmf * area_light_pdf(light, position, hit_position, hit_normal) : 0.0;
 }
 #endif
-
-// Radiance leaving an emitter towards where it was seen from.
-vec3 emitted(Material material, bool front)
-{
-    return front || material.emits_both_sides ? material.emission : vec3(0.0);
-}

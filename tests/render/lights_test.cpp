@@ -225,6 +225,67 @@ const std::vector<IrradianceCase>& irradiance_cases()
 INSTANTIATE_TEST_SUITE_P(Lights, IrradianceTest, testing::ValuesIn(irradiance_cases()),
     [](const auto& test) { return test.param.name; });
 
+/// Left half white and there, right half black or not there.
+Image8 half(const glm::u8vec4& left, const glm::u8vec4& right)
+{
+    Image8 image{"half", 256, 1, {}};
+    image.texels.resize(256, right);
+    std::fill_n(image.texels.begin(), 128, left);
+    return image;
+}
+
+/// What a texture or opacity makes of the unit quad above its corner, of which u grows with x.
+struct PatternCase {
+    const char* name;
+    double expected;  ///< E [W/m^2].
+    std::function<void(Scene&)> dress;  ///< Changes materials[1].
+
+    friend void PrintTo(const PatternCase& c, std::ostream* out) { *out << c.name; }
+};
+
+class PatternTest : public GlTest, public testing::WithParamInterface<PatternCase> { };
+
+TEST_P(PatternTest, LightAndBsdfSamplingAgreeOnAQuadAndOnAMesh)
+{
+    for (const bool mesh : {false, true}) {
+        const TestScene scene(plane_under([&](Scene& s) {
+            GetParam().dress(s);
+            if (!mesh) {
+                add_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
+                return;
+            }
+            s.meshes.push_back(
+                {"quad", {{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}}, {}, {{0, 1, 2}, {0, 2, 3}}});
+            s.meshes[0].uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+            add_light(s, MeshInstance{});
+        }));
+        const double expected = 0.5 / pi * GetParam().expected;
+        for (const bool light_sampling : {true, false}) {
+            RenderSettings s;
+            s.max_depth = 2;
+            s.light_sampling = light_sampling;
+            s.samples_per_pixel = 64;
+            const Estimate estimate = mean_radiance(scene, s, 8);
+            // 3e-3: a wide ray sees the texels' edge blurred over up to a hundredth of the quad.
+            EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 3e-3 * expected)
+                << (mesh ? "mesh" : "quad") << (light_sampling ? " with" : " without")
+                << " light sampling";
+        }
+    }
+}
+
+// Lambert 1760: of the quad's left half, 0.5 by 1 at height 1, seen from under its corner.
+constexpr double kLeftHalf = 0.2833226;
+
+INSTANTIATE_TEST_SUITE_P(Lights, PatternTest,
+    testing::Values(PatternCase{"TexturedEmission", kLeftHalf,
+        [](Scene& s) {
+            s.images.push_back(half({255, 255, 255, 255}, {0, 0, 0, 255}));
+            s.materials[1].emission_texture.image = 0;
+            s.materials[1].emission_texture.wrap_u = Wrap::kClamp;
+        }}),
+    [](const auto& test) { return test.param.name; });
+
 /// Several kinds at once, side by side: irradiances add up.
 TEST_F(GlTest, LightsOfSeveralKindsAddUp)
 {
