@@ -20,7 +20,7 @@ protected:
     {
         GltfBuilder gltf = triangle_gltf();
         gltf.document["extensionsUsed"] = {"KHR_lights_punctual"};
-        gltf.document["extensions"]["KHR_lights_punctual"]["lights"] = {light};
+        gltf.document["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
         node["extensions"]["KHR_lights_punctual"]["light"] = 0;
         gltf.document["nodes"].push_back(node);
         gltf.document["scenes"][0]["nodes"].push_back(1);

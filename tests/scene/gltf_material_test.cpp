@@ -23,7 +23,7 @@ protected:
     GltfBuilder with_material(const Json& material) const
     {
         GltfBuilder gltf = triangle_gltf();
-        gltf.document["materials"] = {material};
+        gltf.document["materials"] = Json::array({material});
         gltf.document["meshes"][0]["primitives"][0]["material"] = 0;
         gltf.document["images"] = {{{"bufferView", gltf.add_view(kRedAndClear)}}};
         gltf.document["textures"] = {{{"source", 0}}};
