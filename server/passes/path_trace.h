@@ -4,6 +4,10 @@
 #include "server/passes/gbuffer.h"
 #include "server/render/settings.h"
 
+#include <algorithm>
+#include <string>
+#include <utility>
+
 namespace farlight {
 
 /// Light at the first surface (rgba32f; alpha is the variance after a filter, see the shaders
@@ -16,9 +20,24 @@ struct Signals {
     TextureHandle scattered;  ///< On the way to the surface; only in fog.
 };
 
-inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, const GBuffer& gbuffer,
-    const RenderSettings& settings)
+/// Most path segments a pixel that one dispatch traces. llvmpipe ends all loops of an invocation,
+/// without a word, after 65535 rounds together: this leaves 256 rounds for the rays of a segment,
+/// four times what a million triangles take. On hardware it keeps a dispatch clear of the driver's
+/// watchdog.
+constexpr int kSegmentsPerDispatch = 256;
+
+inline int samples_per_dispatch(const RenderSettings& settings, bool fog)
 {
+    const int paths_per_sample = fog ? 2 : 1;
+    return std::max(kSegmentsPerDispatch / (settings.max_depth * paths_per_sample), 1);
+}
+
+/// `samples` more samples a pixel, averaged with the `samples_before` that `before` holds.
+inline Signals add_path_trace_part(FrameGraph& graph, const FrameInputs& inputs,
+    const GBuffer& gbuffer, const RenderSettings& settings, const Signals* before,
+    std::pair<int, int> samples_before_and_now)
+{
+    const auto [samples_before, samples] = samples_before_and_now;
     Signals signals;
     signals.direct = graph.create("path_trace.direct", GL_RGBA32F);
     signals.indirect = graph.create("path_trace.indirect", GL_RGBA32F);
@@ -28,12 +47,15 @@ inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, cons
     }
     if (inputs.has_fog())
         signals.scattered = graph.create("path_trace.scattered", GL_RGBA32F);
-    Pass& pass = graph.add_pass("path_trace", "path_trace/path_trace.comp")
+    const std::string name = before == nullptr
+        ? "path_trace"
+        : "path_trace from sample " + std::to_string(samples_before);
+    Pass& pass = graph.add_pass(name, "path_trace/path_trace.comp")
                      .scene(inputs.scene)
                      .read("in_hit", gbuffer.hit)
                      .write("out_direct", signals.direct)
                      .write("out_indirect", signals.indirect)
-                     .constant("samples_per_pixel", settings.samples_per_pixel)
+                     .constant("samples_per_pixel", samples)
                      .constant("max_depth", settings.max_depth)
                      .constant("roulette_depth", settings.roulette_depth);
     inputs.add_primary_ray_constants(pass);
@@ -50,6 +72,29 @@ inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, cons
             .constant("fog_sigma_s", inputs.fog.sigma_s)
             .constant("fog_g", inputs.fog.g);
     }
+    if (before != nullptr) {
+        pass.define({{"CONTINUES", "1"}})
+            .constant("samples_before", samples_before)
+            .read("in_direct", before->direct)
+            .read("in_indirect", before->indirect);
+        if (inputs.has_specular())
+            pass.read("in_specular", before->specular).read("in_shown", before->shown);
+        if (inputs.has_fog())
+            pass.read("in_scattered", before->scattered);
+    }
+    return signals;
+}
+
+inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, const GBuffer& gbuffer,
+    const RenderSettings& settings)
+{
+    const int wanted = settings.samples_per_pixel;
+    const int at_once = samples_per_dispatch(settings, inputs.has_fog());
+    Signals signals = add_path_trace_part(
+        graph, inputs, gbuffer, settings, nullptr, {0, std::min(at_once, wanted)});
+    for (int traced = at_once; traced < wanted; traced += at_once)
+        signals = add_path_trace_part(graph, inputs, gbuffer, settings, &signals,
+            {traced, std::min(at_once, wanted - traced)});
     return signals;
 }
 

@@ -144,7 +144,7 @@ RenderedFrame View::finish()
     glGetNamedBufferSubData(
         counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
     for (const TimedPass& pass : graph_.collect_times()) {
-        const bool traces = pass.name == "gbuffer" || pass.name == "path_trace";
+        const bool traces = pass.name == "gbuffer" || pass.name.starts_with("path_trace");
         frame_.pass_times.push_back({pass.name, pass.milliseconds});
         (traces ? frame_.trace_ms : frame_.denoise_ms) += pass.milliseconds;
     }

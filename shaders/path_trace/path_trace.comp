@@ -11,6 +11,9 @@
 //                                  normal, octahedral; albedo, 8 bits a channel
 //        out_scattered   rgba32f   light that the fog before the first surface scatters to the eye
 //
+// Many samples are traced in several dispatches (server/passes/path_trace.h): CONTINUES is defined for all but the
+// first, which find the mean of the samples before theirs in in_direct, in_indirect, in_specular and in_scattered.
+//
 // Each vertex samples a light and a direction of its BSDF or phase function and combines both by multiple importance
 // sampling. Source: Veach 1997, chapters 8 to 10; Kajiya 1986, "The Rendering Equation".
 #version 450
@@ -32,8 +35,22 @@ uniform writeonly uimage2D out_shown;
 #ifdef FX_FOG
 uniform writeonly image2D out_scattered;
 #endif
+#ifdef CONTINUES
+uniform sampler2D in_direct;
+uniform sampler2D in_indirect;
+#ifdef FX_SPECULAR_SIGNAL
+uniform sampler2D in_specular;
+uniform usampler2D in_shown;
+#endif
+#ifdef FX_FOG
+uniform sampler2D in_scattered;
+#endif
+uniform int samples_before;
+#else
+const int samples_before = 0;
+#endif
 
-uniform int samples_per_pixel;
+uniform int samples_per_pixel;  // of this dispatch
 uniform int max_depth;       // segments from the camera, >= 1
 uniform int roulette_depth;  // segments after which a path may be ended by chance
 
@@ -174,6 +191,17 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
     return sum;
 }
 
+// The mean of all samples so far from that of this dispatch's.
+#ifdef CONTINUES
+#define MEAN_WITH(before, mean) mean_with(texelFetch(before, px, 0), mean)
+vec4 mean_with(vec4 before, vec4 mean)
+{
+    return before + (mean - before) * (float(samples_per_pixel) / float(samples_before + samples_per_pixel));
+}
+#else
+#define MEAN_WITH(before, mean) (mean)
+#endif
+
 void main()
 {
     const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
@@ -211,7 +239,7 @@ void main()
 #endif
     int i = 0;
     while (i < paths) {
-        uint sample_index = frame.first_sample + uint(i);
+        uint sample_index = frame.first_sample + uint(samples_before + i);
         uint first_bounce = 0u;
         Vertex start = first;
         vec2 cone = vec2(footprint * way, footprint);
@@ -219,7 +247,7 @@ void main()
         const bool from_fog = i >= surface_paths;
         FogEvent event;
         if (from_fog) {
-            sample_index = frame.first_sample + uint(i - surface_paths);
+            sample_index = frame.first_sample + uint(samples_before + i - surface_paths);
             first_bounce = FOG_PATH_BOUNCE;
             event = sample_fog_within(scene_fog(),
                 span.y - span.x, random4(uvec2(px), frame.seed, sample_index, first_bounce - 1u, SLOT_FOG).xy);
@@ -247,17 +275,20 @@ void main()
         ++i;
     }
     const float weight = 1.0 / float(samples_per_pixel);
-    imageStore(out_direct, px, vec4(counted_finite(sum.direct * weight), 0.0));
-    imageStore(out_indirect, px, vec4(counted_finite(sum.indirect * weight), 0.0));
+    imageStore(out_direct, px, MEAN_WITH(in_direct, vec4(counted_finite(sum.direct * weight), 0.0)));
+    imageStore(out_indirect, px, MEAN_WITH(in_indirect, vec4(counted_finite(sum.indirect * weight), 0.0)));
 #ifdef FX_SPECULAR_SIGNAL
     const vec4 reflectance = texelFetch(in_reflectance, px, 0);
     const vec3 specular = reflectance.a >= 0.0 ? sum.specular * weight / reflectance.rgb : vec3(0.0);
     // Beyond ten thousand times the view distance nothing shifts any more.
     const float distance = distance_count > 0.0 ? min(distance_sum / distance_count, 1e4 * way) : 0.0;
-    imageStore(out_specular, px, vec4(counted_finite(specular), distance));
+    imageStore(out_specular, px, MEAN_WITH(in_specular, vec4(counted_finite(specular), distance)));
+#ifdef CONTINUES
+    shown = shown.x != 0u ? shown : texelFetch(in_shown, px, 0);
+#endif
     imageStore(out_shown, px, shown);
 #endif
 #ifdef FX_FOG
-    imageStore(out_scattered, px, vec4(counted_finite(scattered * weight), 0.0));
+    imageStore(out_scattered, px, MEAN_WITH(in_scattered, vec4(counted_finite(scattered * weight), 0.0)));
 #endif
 }

@@ -238,6 +238,36 @@ TEST_F(GlTest, SignalsAddUpToThePicture)
     EXPECT_EQ(render(Denoiser::kSvgf), render(Denoiser::kOff));
 }
 
+/// Many samples in one frame are the same samples as few in many frames: none is cut short, though
+/// llvmpipe ends all loops of an invocation after 65535 rounds together.
+TEST_F(GlTest, ManySamplesInOneFrameAreAllTraced)
+{
+    Scene scene;
+    scene.materials = {white("glass"), white("walls")};
+    scene.materials[0] = glass(0);
+    scene.materials[1].albedo = glm::vec3(0.9F);
+    for (int i = 0; i < 8; ++i)  // one within the other: a path meets many surfaces
+        scene.objects.push_back({"shell", 0, Sphere{{0, 0, 0}, 1.0 - 0.1 * i}});
+    scene.objects.push_back({"floor", 1, Quad{{-3, -1.1, -3}, {0, 0, 6}, {6, 0, 0}}});
+    scene.background = glm::vec3(1);
+    scene.medium.sigma_s = glm::vec3(0.05F);
+    scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 40};
+    const TestScene on_device(scene);
+    View one(on_device.shared);
+    View many(on_device.shared);
+    const Extent extent{16, 16};
+    const Image at_once = one.render(linear_request(scene, extent, settings_of(24, 256))).image;
+    RenderedFrame last;
+    for (int i = 0; i < 32; ++i)
+        last = many.render(linear_request(scene, extent, settings_of(24, 8)));
+    for (int i = 0; i < extent.width * extent.height; ++i) {
+        const glm::vec3 expected = pixel(last.image, i % extent.width, i / extent.width);
+        const glm::vec3 found = pixel(at_once, i % extent.width, i / extent.width);
+        // 1e-4: sums of 256 numbers in another order.
+        EXPECT_LT(glm::length(found - expected), 1e-4F * glm::length(expected)) << i;
+    }
+}
+
 /// Where nothing can scatter light, no path is traced and nothing filtered.
 TEST_F(GlTest, NothingIsTracedWhereNothingScatters)
 {
