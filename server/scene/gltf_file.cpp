@@ -123,6 +123,9 @@ void Reader::read_cameras()
             ++orthographic;
             continue;
         }
+        if (!camera.contains("perspective"))
+            refuse(root_ / "cameras" / json["camera"].get<std::size_t>(), "no key \"perspective\"",
+                "what its type says");
         const auto pose = gltf_camera_pose(camera, node.world_from_node, bounds, scene().notes);
         if (!pose)
             continue;

@@ -11,7 +11,9 @@
 #include <limits>
 #include <memory>
 #include <stb/stb_image.h>
+#include <string_view>
 #include <tinyexr.h>
+#include <vector>
 
 namespace farlight {
 
@@ -115,12 +117,73 @@ EnvironmentFile read_hdr(const Encoded& picture, const ScenePlace& place)
     return repaired(texels.get(), 3, size);
 }
 
+/// Frees what tinyexr keeps, whether it succeeds or not; its LoadEXRFromMemory() does not.
+struct ExrFile {
+    ExrFile()
+    {
+        InitEXRHeader(&header);
+        InitEXRImage(&image);
+    }
+    ~ExrFile()
+    {
+        FreeEXRImage(&image);
+        FreeEXRHeader(&header);
+    }
+    ExrFile(const ExrFile&) = delete;
+    ExrFile& operator=(const ExrFile&) = delete;
+
+    EXRVersion version{};
+    EXRHeader header{};
+    EXRImage image{};
+};
+
+/// Where channel R, G or B lies among the file's; a lone channel stands for all three.
+int exr_channel(const EXRHeader& header, char name, const ScenePlace& place)
+{
+    for (int i = 0; i < header.num_channels; ++i)
+        if (header.num_channels == 1
+            || std::string_view(header.channels[i].name) == std::string_view(&name, 1))
+            return i;
+    refuse(place, std::string("no channel ") + name, "an OpenEXR picture with channels R, G, B");
+}
+
+/// r, g, b of all texels, in rows.
+std::vector<float> exr_texels(const ExrFile& file, const Size& size, const ScenePlace& place)
+{
+    std::vector<float> texels(std::size_t{3} * static_cast<std::size_t>(size.width)
+        * static_cast<std::size_t>(size.height));
+    const auto copy = [&](unsigned char** planes, const Size& from, const Size& stride, int x,
+                          int y) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const int plane = exr_channel(file.header, "RGB"[channel], place);
+            const auto* samples = reinterpret_cast<const float*>(planes[plane]);
+            for (int j = 0; j < from.height && y + j < size.height; ++j)
+                for (int i = 0; i < from.width && x + i < size.width; ++i)
+                    texels[3
+                            * (static_cast<std::size_t>(y + j)
+                                    * static_cast<std::size_t>(size.width)
+                                + static_cast<std::size_t>(x + i))
+                        + static_cast<std::size_t>(channel)] =
+                        samples[static_cast<std::size_t>(j) * static_cast<std::size_t>(stride.width)
+                            + static_cast<std::size_t>(i)];
+        }
+    };
+    if (file.image.images != nullptr)
+        copy(file.image.images, size, size, 0, 0);
+    const Size tile{file.header.tile_size_x, file.header.tile_size_y};
+    for (int i = 0; i < file.image.num_tiles; ++i) {
+        const EXRTile& at = file.image.tiles[i];
+        if (at.level_x == 0 && at.level_y == 0)
+            copy(at.images, {at.width, at.height}, tile, at.offset_x * tile.width,
+                at.offset_y * tile.height);
+    }
+    return texels;
+}
+
 EnvironmentFile read_exr(const Encoded& picture, const ScenePlace& place)
 {
     const auto length = static_cast<std::size_t>(picture.length);
-    EXRVersion version;
-    EXRHeader header;
-    InitEXRHeader(&header);
+    ExrFile file;
     const char* error = nullptr;
     const auto check = [&](int result) {
         if (result == TINYEXR_SUCCESS)
@@ -129,16 +192,19 @@ EnvironmentFile read_exr(const Encoded& picture, const ScenePlace& place)
         FreeEXRErrorMessage(error);
         refuse(place, "a broken picture: " + reason, "an OpenEXR picture with channels R, G, B");
     };
-    check(ParseEXRVersionFromMemory(&version, picture.bytes, length));
-    check(ParseEXRHeaderFromMemory(&header, &version, picture.bytes, length, &error));
-    Size size{extent(header.data_window.min_x, header.data_window.max_x),
+    EXRHeader& header = file.header;
+    check(ParseEXRVersionFromMemory(&file.version, picture.bytes, length));
+    check(ParseEXRHeaderFromMemory(&header, &file.version, picture.bytes, length, &error));
+    const Size size{extent(header.data_window.min_x, header.data_window.max_x),
         extent(header.data_window.min_y, header.data_window.max_y)};
-    FreeEXRHeader(&header);
     check_size(size, place);
-    float* texels = nullptr;
-    check(LoadEXRFromMemory(&texels, &size.width, &size.height, picture.bytes, length, &error));
-    const std::unique_ptr<float, void (*)(void*)> owned(texels, std::free);
-    return repaired(texels, 4, size);
+    for (int i = 0; i < header.num_channels; ++i) {
+        if (header.pixel_types[i] == TINYEXR_PIXELTYPE_UINT)
+            refuse(place, "channels of integers", "channels of half or float numbers");
+        header.requested_pixel_types[i] = TINYEXR_PIXELTYPE_FLOAT;
+    }
+    check(LoadEXRImageFromMemory(&file.image, &header, picture.bytes, length, &error));
+    return repaired(exr_texels(file, size, place).data(), 3, size);
 }
 
 std::span<const unsigned char> bytes_of(const std::string& text)

@@ -94,6 +94,15 @@ TEST_F(GltfLightTest, BadLights)
     EXPECT_THAT(flat.notes, Contains("1 lights left out: a scale of 0 leaves no direction"));
 }
 
+TEST_F(GltfLightTest, APerspectiveCameraNeedsItsLens)
+{
+    GltfBuilder gltf = triangle_gltf();
+    gltf.document["cameras"] = Json::array({{{"type", "perspective"}}});
+    gltf.document["nodes"][0]["camera"] = 0;
+    EXPECT_EQ(refusal((folder_.path() / "test.glb").string(), [&] { load(gltf); }),
+        "/cameras/0: found no key \"perspective\", expected what its type says");
+}
+
 TEST_F(GltfLightTest, CamerasAfterTheFirstBecomePaths)
 {
     GltfBuilder gltf = triangle_gltf();

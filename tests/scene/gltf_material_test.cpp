@@ -244,7 +244,7 @@ TEST_F(GltfMaterialTest, BadImagesAreRefused)
         "/images/0/uri: found \"data:image/png;base64,!!!!\", expected base64 after the comma");
     gltf.document["images"] = {{{"bufferView", 9}}};
     EXPECT_THAT(refusal_of(gltf), HasSubstr("/images/0/bufferView: found index 9"));
-    gltf.document["images"] = {Json::object()};
+    gltf.document["images"] = Json::array({Json::object()});
     EXPECT_EQ(refusal_of(gltf), "/images/0: found no key \"uri\", expected a uri or a bufferView");
     gltf.document["textures"][0]["source"] = 1;
     EXPECT_THAT(refusal_of(gltf), HasSubstr("/textures/0/source: found index 1"));
