@@ -21,10 +21,12 @@ bool is_lit(const Scene& scene)
         return scene.materials[object.material];
     };
     const auto& objects = scene.objects;
-    return std::any_of(objects.begin(), objects.end(),
-               [&](const Object& o) { return material(o).emission != glm::vec3(0); })
-        || std::all_of(
-            objects.begin(), objects.end(), [&](const Object& o) { return material(o).unlit; });
+    return std::any_of(objects.begin(), objects.end(), [&](const Object& o) {
+        // What glows in a picture is a label or a display, and lights nothing else.
+        return material(o).emission != glm::vec3(0) && !material(o).emission_texture.used();
+    }) || std::all_of(objects.begin(), objects.end(), [&](const Object& o) {
+        return material(o).unlit;
+    });
 }
 
 }  // namespace

@@ -187,6 +187,17 @@ TEST_F(GltfMaterialTest, SamplersUvSetsAndTransforms)
     EXPECT_EQ(scene.images.size(), 1U);
 }
 
+TEST_F(GltfMaterialTest, AGlowingPictureIsNoLamp)
+{
+    const auto lamps = [&](const Json& json) {
+        const Scene scene = load(with_material(json));
+        return std::count_if(scene.objects.begin(), scene.objects.end(),
+            [](const Object& object) { return object.name == "default light"; });
+    };
+    EXPECT_EQ(lamps({{"emissiveFactor", {1, 1, 1}}}), 0);
+    EXPECT_EQ(lamps({{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 0}}}}), 1);
+}
+
 TEST_F(GltfMaterialTest, TheTransformsUvSetWins)
 {
     const Material found = material({{"emissiveTexture",
