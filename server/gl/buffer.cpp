@@ -39,10 +39,11 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept
     return *this;
 }
 
-void Buffer::update(std::span<const std::byte> bytes)
+void Buffer::update(std::span<const std::byte> bytes, std::size_t offset)
 {
-    assert(bytes.size() <= size_);
-    glNamedBufferSubData(id_, 0, static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    assert(offset + bytes.size() <= size_);
+    glNamedBufferSubData(
+        id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()), bytes.data());
 }
 
 GLuint Buffer::texture(GLenum format)

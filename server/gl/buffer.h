@@ -20,8 +20,8 @@ public:
 
     GLuint id() const { return id_; }
     std::size_t size() const { return size_; }
-    /// Replaces the content; `bytes` must not be larger than size().
-    void update(std::span<const std::byte> bytes);
+    /// Replaces the content from `offset` on; what is there must fit into size().
+    void update(std::span<const std::byte> bytes, std::size_t offset = 0);
     /// The buffer as a texture of `format` texels (GL_RGBA32F, GL_RGBA32UI, ...); made at first
     /// use.
     GLuint texture(GLenum format);

@@ -36,10 +36,11 @@ LoadedScene load_onto_device(Scene scene)
     drop_neutral(scene);
     const Bounds bounds = scene_bounds(scene);
     const SceneLook look = look_of(scene);
-    auto gpu = std::make_shared<GpuScene>(scene);
+    const auto kept = std::make_shared<Scene>(std::move(scene));
+    auto gpu = std::make_shared<GpuScene>(*kept);
     glFinish();  // another context will read it
-    scene.meshes.clear();
-    return {std::make_shared<const Scene>(std::move(scene)), std::move(gpu), bounds, look};
+    kept->meshes.clear();
+    return {kept, std::move(gpu), bounds, look};
 }
 
 LiveScene::LiveScene(
@@ -59,6 +60,7 @@ void LiveScene::show(LoadedScene loaded)
     scene_programs_.follow(loaded_.gpu);
     shared_.light_count = static_cast<std::uint32_t>(loaded_.gpu->light_count());
     shared_.look = loaded_.look;
+    shared_.gpu = loaded_.gpu.get();
     ++shared_.version;
 }
 

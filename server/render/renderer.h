@@ -23,6 +23,7 @@ struct RenderRequest {
     RenderSettings settings;
     Extent extent;
     PixelFormat format = PixelFormat::kRgb8;
+    double time = 0;  ///< Of a scene that moves [s]; what moved since the last frame follows.
     bool reset_history =
         false;  ///< A cut: forget history and accumulated samples, restart the random numbers.
     bool refine =

@@ -56,7 +56,8 @@ void View::follow(const RenderRequest& request)
 {
     const RenderSettings& s = request.settings;
     const SampleKey key{request.camera, request.extent, s.samples_per_pixel, s.max_depth,
-        s.roulette_depth, s.light_sampling, s.antialiasing, s.seed, scene_.version};
+        s.roulette_depth, s.light_sampling, s.antialiasing, s.seed, scene_.version,
+        moves() ? request.time : 0};
     if (request.reset_history || request.extent != key_.extent)
         has_history_ = false;
     if (!has_history_)
@@ -68,6 +69,14 @@ void View::follow(const RenderRequest& request)
     key_ = key;
 }
 
+/// The scene as it is in this frame and was in the last.
+void View::pose(double time)
+{
+    if (moves())
+        scene_.gpu->pose(time, has_history_ ? prev_time_ : time);
+    prev_time_ = time;
+}
+
 void View::upload_constants(const RenderRequest& request)
 {
     shared::FrameConstants constants{};
@@ -75,6 +84,8 @@ void View::upload_constants(const RenderRequest& request)
     constants.prev_camera =
         has_history_ ? camera_constants(prev_camera_, request.extent) : constants.camera;
     constants.background = scene_.look.background;
+    if (moves())
+        constants.background *= scene_.gpu->background_factor();
     constants.light_count = scene_.light_count;
     constants.first_sample = samples_;
     constants.extent = {request.extent.width, request.extent.height};
@@ -100,6 +111,7 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
 void View::begin(const RenderRequest& request)
 {
     follow(request);
+    pose(request.time);
     upload_constants(request);
     if (!has_history_)
         graph_.forget_histories();
@@ -119,8 +131,7 @@ void View::begin(const RenderRequest& request)
         scene_.scene_programs.choose(plan.settings.effects, effects_of(plan), declare);
     graph_.begin_frame(
         request.extent, {{"frame_block", constants_.id()}, {"counter_block", counters_.id()}});
-    const TextureHandle result =
-        build_frame(graph_, values.with_scene(variant.inputs), plan);
+    const TextureHandle result = build_frame(graph_, values.with_scene(variant.inputs), plan);
     graph_.keep(result);
     graph_.execute();
     readback_.begin(graph_.texture(result));

@@ -22,6 +22,7 @@ struct SharedScene {
     bool strict = false;  ///< See FrameGraph.
     bool keep_all = false;  ///< Likewise.
     std::uint32_t version = 0;  ///< Counts scenes shown: pictures of two must not be averaged.
+    GpuScene* gpu = nullptr;  ///< Brought to each frame's time, if it moves.
 };
 
 /// GPU memory a view takes at most, with every stage on, its pixel buffer included [bytes a pixel].
@@ -61,11 +62,14 @@ private:
         bool antialiasing = false;
         std::uint32_t seed = 0;
         std::uint32_t scene_version = 0;
+        double time = 0;  ///< Of a scene that moves.
 
         bool operator==(const SampleKey&) const = default;
     };
 
+    bool moves() const { return scene_.gpu != nullptr && scene_.gpu->moves(); }
     void follow(const RenderRequest& request);
+    void pose(double time);
     void upload_constants(const RenderRequest& request);
     FrameInputs inputs_of(const RenderRequest& request) const;
 
@@ -76,6 +80,7 @@ private:
     Readback readback_;
     SampleKey key_;
     CameraPose prev_camera_;
+    double prev_time_ = 0;
     bool has_history_ = false;
     std::uint32_t samples_ =
         0;  ///< A pixel, since the cut: no number is used twice when samples_per_pixel changes.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,29 @@ struct Animation {
 
     bool empty() const { return tracks.empty(); }
 };
+
+/// Numbers a value of the track has.
+std::size_t width_of(const Track& track);
+
+/// The track's value at `time` [s], into `width_of(track)` numbers. Rotations come out unit.
+void evaluate(const Track& track, double time, std::span<double> value);
+
+/// world_from_node of every node at `time`.
+std::vector<glm::dmat4> pose_nodes(const Animation& animation, double time);
+
+/// For every node: whether a track moves it or one that carries it.
+std::vector<bool> moving_nodes(const Animation& animation);
+
+/// Whether any track drives such a target.
+bool drives(const Animation& animation, Track::Target target);
+
+/// The product of the tracks that scale `target` `index` at `time`; 1 without any. For targets of
+/// one number.
+double factor_at(
+    const Animation& animation, Track::Target target, std::uint32_t index, double time);
+
+/// Morph weights of object `object` at `time`: its track's, else `at_rest`.
+std::vector<float> morph_weights_at(const Animation& animation, std::uint32_t object,
+    const std::vector<float>& at_rest, double time);
 
 }  // namespace farlight

@@ -107,6 +107,11 @@ Tree build_tree(RTCDevice device, std::vector<RTCBuildPrimitive> primitives)
     return tree;
 }
 
+PrimitiveBounds packed(const RTCBounds& b)
+{
+    return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
+
 /// Writes nodes depth first.
 class Packer {
 public:
@@ -130,11 +135,11 @@ public:
     {
         const auto at = static_cast<unsigned>(bvh_.nodes.size());
         bvh_.nodes.resize(at + BVH_NODE_TEXELS);
-        write_bounds(at, children, bounds);
-        for (int i = 0; i < kBvhWidth; ++i) {
-            const BuildNode* child = children[static_cast<std::size_t>(i)];
-            const unsigned word = child == nullptr ? BVH_NO_CHILD : pack(*child);
-            bvh_.nodes[at + 6][i] = word;
+        for (std::size_t i = 0; i < kBvhWidth; ++i) {
+            const bool there = children[i] != nullptr;
+            set_child_bounds(bvh_.nodes, at, i, there ? packed(bounds[i]) : kNowhereBounds);
+            const unsigned word = there ? pack(*children[i]) : BVH_NO_CHILD;
+            bvh_.nodes[at + 6][static_cast<int>(i)] = word;
         }
         return at;
     }
@@ -146,22 +151,6 @@ public:
     }
 
 private:
-    /// A missing child's box is a point that no ray with t <= 1e30 reaches.
-    void write_bounds(unsigned at, const std::array<const BuildNode*, kBvhWidth>& children,
-        const std::array<RTCBounds, kBvhWidth>& bounds)
-    {
-        constexpr float kNowhere = 3e37F;
-        for (int i = 0; i < kBvhWidth; ++i) {
-            std::array<float, 6> box;
-            box.fill(kNowhere);
-            const RTCBounds& b = bounds[static_cast<std::size_t>(i)];
-            if (children[static_cast<std::size_t>(i)] != nullptr)
-                box = {b.lower_x, b.lower_y, b.lower_z, b.upper_x, b.upper_y, b.upper_z};
-            for (unsigned k = 0; k < 6; ++k)
-                bvh_.nodes[at + k][i] = std::bit_cast<unsigned>(box[k]);
-        }
-    }
-
     Bvh& bvh_;
     unsigned kind_ = BVH_TRIANGLES;
     unsigned first_of_kind_ = 0;
@@ -211,18 +200,13 @@ void pack_trees(Bvh& bvh, const std::array<Tree, kPrimitiveKinds>& trees)
         return;
     }
     packer.pack_children({}, {});
-    for (int kind = 0; kind < kPrimitiveKinds; ++kind) {
-        const Tree& tree = trees[static_cast<std::size_t>(kind)];
-        if (tree.root == nullptr)
+    for (std::size_t kind = 0; kind < kPrimitiveKinds; ++kind) {
+        if (trees[kind].root == nullptr)
             continue;
         packer.begin_kind(static_cast<PrimitiveKind>(kind));
-        const unsigned word = packer.pack(*tree.root);  // may move bvh.nodes
-        bvh.nodes[6][kind] = word;
-        const RTCBounds& b = tree.bounds;
-        const std::array<float, 6> box{
-            b.lower_x, b.lower_y, b.lower_z, b.upper_x, b.upper_y, b.upper_z};
-        for (unsigned k = 0; k < 6; ++k)
-            bvh.nodes[k][kind] = std::bit_cast<unsigned>(box[k]);
+        const unsigned word = packer.pack(*trees[kind].root);  // may move bvh.nodes
+        bvh.nodes[6][static_cast<int>(kind)] = word;
+        set_child_bounds(bvh.nodes, 0, kind, packed(trees[kind].bounds));
     }
 }
 
@@ -246,6 +230,69 @@ Bvh build_bvh(std::span<const PrimitiveBounds> bounds, std::span<const Primitive
             rtcReleaseBVH(tree.arena);
     bvh.stack_depth = stack_need(bvh, 0);
     return bvh;
+}
+
+void set_child_bounds(
+    std::span<glm::uvec4> nodes, std::size_t at, std::size_t child, const PrimitiveBounds& bounds)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto row = at + static_cast<std::size_t>(axis);
+        nodes[row][static_cast<int>(child)] = std::bit_cast<unsigned>(bounds.lower[axis]);
+        nodes[row + 3][static_cast<int>(child)] = std::bit_cast<unsigned>(bounds.upper[axis]);
+    }
+}
+
+PrimitiveBounds child_bounds(std::span<const glm::uvec4> nodes, std::size_t at, std::size_t child)
+{
+    PrimitiveBounds bounds{};
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto row = at + static_cast<std::size_t>(axis);
+        bounds.lower[axis] = std::bit_cast<float>(nodes[row][static_cast<int>(child)]);
+        bounds.upper[axis] = std::bit_cast<float>(nodes[row + 3][static_cast<int>(child)]);
+    }
+    return bounds;
+}
+
+PrimitiveBounds root_bounds(std::span<const glm::uvec4> nodes, std::size_t at)
+{
+    PrimitiveBounds bounds = kNowhereBounds;
+    bool first = true;
+    for (std::size_t i = 0; i < kBvhWidth; ++i) {
+        if (nodes[at + 6][static_cast<int>(i)] == BVH_NO_CHILD)
+            continue;
+        const PrimitiveBounds child = child_bounds(nodes, at, i);
+        bounds.lower = first ? child.lower : glm::min(bounds.lower, child.lower);
+        bounds.upper = first ? child.upper : glm::max(bounds.upper, child.upper);
+        first = false;
+    }
+    return bounds;
+}
+
+void relocate(std::span<glm::uvec4> nodes, std::uint32_t node,
+    const std::array<std::uint32_t, kPrimitiveKinds>& first)
+{
+    for (std::size_t at = 6; at < nodes.size(); at += BVH_NODE_TEXELS)
+        for (int i = 0; i < kBvhWidth; ++i) {
+            std::uint32_t& word = nodes[at][i];
+            const auto kind = (word & BVH_KIND_MASK) / BVH_SPHERES;
+            if (word != BVH_NO_CHILD)
+                word += (word & BVH_LEAF_BIT) != 0 ? first[kind] : node;
+        }
+}
+
+void refit(std::span<glm::uvec4> nodes, std::size_t first, std::size_t root, std::size_t end,
+    const std::function<PrimitiveBounds(std::uint32_t)>& leaf_bounds)
+{
+    for (std::size_t at = end - first; at > root - first;) {
+        at -= BVH_NODE_TEXELS;
+        for (std::size_t i = 0; i < kBvhWidth; ++i) {
+            const std::uint32_t word = nodes[at + 6][static_cast<int>(i)];
+            if (word != BVH_NO_CHILD)
+                set_child_bounds(nodes, at, i,
+                    (word & BVH_LEAF_BIT) != 0 ? leaf_bounds(word)
+                                               : root_bounds(nodes, word - first));
+        }
+    }
 }
 
 }  // namespace farlight

@@ -1,103 +1,299 @@
-// Every object's shape in world space.
+// Every object's shape in the space of its group.
 #include "server/scene/flatten.h"
 
-#include "shaders/shared/scene_layout.h"
+#include "server/scene/deform.h"
+#include "server/scene/instance_transform.h"
 
 #include <cmath>
+#include <glm/gtc/matrix_inverse.hpp>
+#include <map>
 #include <utility>
 
 namespace farlight {
 namespace {
 
+const Mesh* mesh_of(const Scene& scene, const Object& object)
+{
+    const auto* instance = std::get_if<MeshInstance>(&object.shape);
+    return instance == nullptr ? nullptr : &scene.meshes[instance->mesh];
+}
+
+glm::vec3 transformed_point(const glm::dmat4& m, const glm::dvec3& p)
+{
+    return glm::vec3(m * glm::dvec4(p, 1));
+}
+
 class Flattener {
 public:
-    explicit Flattener(const Scene& scene) : scene_(scene) { }
+    explicit Flattener(const Scene& scene)
+        : scene_(scene)
+        , placements_(placements_of(scene))
+        , world_from_node_(pose_nodes(scene.animation, 0))
+    {
+        flat_.groups.resize(1);
+        flat_.objects.resize(scene.objects.size());
+    }
 
     FlatScene run()
     {
-        for (std::uint32_t i = 0; i < scene_.objects.size(); ++i) {
-            object_ = i;
-            std::visit([this](const auto& shape) { add(shape); }, scene_.objects[i].shape);
+        for (const Placement placement :
+            {Placement::kWorld, Placement::kInstance, Placement::kDeforming}) {
+            if (placement == Placement::kDeforming)
+                flat_.first_deforming = static_cast<std::uint32_t>(flat_.groups.size());
+            for (object_ = 0; object_ < scene_.objects.size(); ++object_)
+                if (placements_[object_] == placement)
+                    add_object(placement);
         }
         return std::move(flat_);
     }
 
 private:
-    void add(const Sphere& sphere)
+    const Object& object() const { return scene_.objects[object_]; }
+    glm::dmat4 world_from_carrier() const
     {
-        flat_.spheres.push_back({glm::vec3(sphere.center), static_cast<float>(sphere.radius),
-            object_, add_light(light_of(sphere))});
+        return carried(object().node, world_from_node_, glm::dmat4(1));
     }
 
-    void add(const Disk& disk)
+    void add_object(Placement placement)
     {
-        flat_.disks.push_back({glm::vec3(disk.center), static_cast<float>(disk.radius),
-            glm::vec3(glm::normalize(disk.normal)), object_, add_light(light_of(disk))});
+        in_instance_ = placement == Placement::kInstance;
+        if (in_instance_)
+            return add_instance();
+        if (placement == Placement::kDeforming) {
+            flat_.deforming_objects.push_back(object_);
+            flat_.groups.emplace_back();
+        }
+        group_ = placement == Placement::kWorld ? 0 : flat_.groups.size() - 1;
+        add_shape(world_from_carrier());
     }
 
-    void add(const Quad& quad)
+    void add_instance()
     {
-        const auto p0 = glm::vec3(quad.corner);
-        const auto u = glm::vec3(quad.corner + quad.edge_u);
-        const auto v = glm::vec3(quad.corner + quad.edge_v);
-        const auto uv = glm::vec3(quad.corner + quad.edge_u + quad.edge_v);
-        const std::uint32_t light = add_light(light_of_quad(p0, u - p0, v - p0));
-        for (const FlatTriangle& half :
-            {FlatTriangle{{p0, u, uv}, object_, light, 0}, {{p0, uv, v}, object_, light, 1}})
-            if (is_usable(half))
-                flat_.triangles.push_back(half);
+        const auto* mesh = std::get_if<MeshInstance>(&object().shape);
+        const auto known = mesh == nullptr ? group_of_mesh_.end() : group_of_mesh_.find(mesh->mesh);
+        if (known == group_of_mesh_.end()) {
+            group_ = flat_.groups.size();
+            flat_.groups.emplace_back();
+            if (mesh != nullptr)
+                group_of_mesh_[mesh->mesh] = group_;
+            next_light_ = 1;
+            add_shape(glm::dmat4(1));
+        } else {
+            group_ = known->second;
+            flat_.objects[object_].mesh = &scene_.meshes[mesh->mesh];
+        }
+        if (group().size() == 0)
+            return;
+        const glm::dmat4 local = mesh == nullptr ? glm::dmat4(1) : mesh->world_from_object;
+        const std::uint32_t light =
+            is_sampled(scene_, object()) ? add_instance_lights(world_from_carrier() * local) : 0;
+        flat_.instances.push_back({static_cast<std::uint32_t>(group_), object_, light});
     }
 
-    void add(const MeshInstance& instance)
+    /// Lights of the group as the object's material has them shine; index + 1 of the first.
+    std::uint32_t add_instance_lights(const glm::dmat4& world_from_group)
     {
-        const Mesh& mesh = scene_.meshes[instance.mesh];
-        const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0;
-        for (std::uint32_t face = 0; face < mesh.triangles.size(); ++face) {
-            FlatTriangle triangle{{}, object_, 0, face};
-            for (int k = 0; k < 3; ++k) {
-                const std::uint32_t corner = mesh.triangles[face][corner_of(k, mirrored)];
-                triangle.vertices[static_cast<std::size_t>(k)] =
-                    glm::vec3(instance.world_from_object * glm::dvec4(mesh.positions[corner], 1));
-            }
-            if (!is_usable(triangle))
-                continue;
+        std::uint32_t first = 0;
+        for (const Light& shape : lights_of_group()) {
+            const std::uint32_t number = add_light(transformed(shape, world_from_group));
+            first = first == 0 ? number : first;
+            flat_.instance_lights.push_back(
+                {number - 1, static_cast<std::uint32_t>(flat_.instances.size()), shape});
+        }
+        return first;
+    }
+
+    std::vector<Light> lights_of_group()
+    {
+        if (const auto* quad = std::get_if<Quad>(&object().shape))
+            return {light_of_quad(
+                glm::vec3(quad->corner), glm::vec3(quad->edge_u), glm::vec3(quad->edge_v))};
+        if (const auto* sphere = std::get_if<Sphere>(&object().shape))
+            return {light_of(*sphere)};
+        if (const auto* disk = std::get_if<Disk>(&object().shape))
+            return {light_of(*disk)};
+        std::vector<Light> lights;
+        for (const FlatTriangle& triangle : group().triangles) {
             const auto& [a, b, c] = triangle.vertices;
-            Light light = light_of_triangle(a, b - a, c - a);
-            light.face = face;
-            light.mirrored = mirrored;
-            triangle.light = add_light(light);
-            flat_.triangles.push_back(triangle);
+            lights.push_back(light_of_triangle(a, b - a, c - a));
+            lights.back().face = triangle.face;
+        }
+        return lights;
+    }
+
+    void add_shape(const glm::dmat4& group_from_carrier)
+    {
+        std::visit([&](const auto& shape) { add(shape, group_from_carrier); }, object().shape);
+    }
+
+    void add(const Sphere& sphere, const glm::dmat4& m)
+    {
+        const Sphere placed{
+            glm::dvec3(m * glm::dvec4(sphere.center, 1)), sphere.radius * scale_of(m)};
+        group().spheres.push_back({glm::vec3(placed.center), static_cast<float>(placed.radius),
+            object_, light(light_of(placed))});
+    }
+
+    void add(const Disk& disk, const glm::dmat4& m)
+    {
+        const glm::dvec3 normal = glm::normalize(glm::dmat3(m) * disk.normal);
+        group().disks.push_back(
+            {transformed_point(m, disk.center), static_cast<float>(disk.radius * scale_of(m)),
+                glm::vec3(normal), object_, light(light_of(disk))});
+    }
+
+    void add(const Quad& quad, const glm::dmat4& m)
+    {
+        const glm::vec3 p0 = transformed_point(m, quad.corner);
+        // A mirroring carrier would turn the normal round.
+        const bool mirrored = glm::determinant(glm::dmat3(m)) < 0;
+        const glm::dvec3& first = mirrored ? quad.edge_v : quad.edge_u;
+        const glm::dvec3& second = mirrored ? quad.edge_u : quad.edge_v;
+        const glm::vec3 u = transformed_point(m, quad.corner + first);
+        const glm::vec3 v = transformed_point(m, quad.corner + second);
+        const glm::vec3 uv = transformed_point(m, quad.corner + quad.edge_u + quad.edge_v);
+        flat_.objects[object_].mirrored = mirrored;
+        Light shape = light_of_quad(p0, u - p0, v - p0);
+        shape.mirrored = mirrored;
+        const std::uint32_t index = light(shape);
+        add_triangle({{p0, u, uv}, object_, index, 0});
+        add_triangle({{p0, uv, v}, object_, index, 1});
+    }
+
+    void add(const MeshInstance& instance, const glm::dmat4& group_from_carrier)
+    {
+        FlatObject& flat = flat_.objects[object_];
+        flat.mesh = &scene_.meshes[instance.mesh];
+        const glm::dmat4 placed = group_from_carrier * instance.world_from_object;
+        if (!in_instance_) {
+            flat.group_from_mesh = placed;
+            flat.mirrored = glm::determinant(glm::dmat3(placed)) < 0;
+        }
+        if (!in_instance_ && has_pose(scene_, object()))
+            take_pose(flat, instance);
+        flat.group_from_normal = glm::mat3(glm::inverseTranspose(glm::dmat3(flat.group_from_mesh)));
+        for (std::uint32_t face = 0; face < flat.mesh->triangles.size(); ++face) {
+            FlatTriangle triangle{{}, object_, 0, face};
+            const glm::uvec3 corners = corners_of(flat, face);
+            for (int k = 0; k < 3; ++k)
+                triangle.vertices[static_cast<std::size_t>(k)] =
+                    transformed_point(flat.group_from_mesh, flat.mesh->positions[corners[k]]);
+            const auto& [a, b, c] = triangle.vertices;
+            if (!add_triangle(triangle))
+                continue;
+            Light shape = light_of_triangle(a, b - a, c - a);
+            shape.face = face;
+            shape.mirrored = flat.mirrored;
+            group().triangles.back().light = light(shape);
         }
     }
 
-    /// Counts what is not.
-    bool is_usable(const FlatTriangle& triangle)
+    /// Its vertices of time 0 stand in for the mesh's.
+    void take_pose(FlatObject& flat, const MeshInstance& instance)
     {
-        const auto& [a, b, c] = triangle.vertices;
-        const double area =
-            glm::length(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)));
-        const bool usable = area > 0 && std::isfinite(area);
+        VertexPose pose = pose_object(scene_, object_, 0, world_from_node_);
+        auto posed = std::make_shared<Mesh>(*flat.mesh);
+        posed->positions = std::move(pose.positions);
+        posed->normals = std::move(pose.normals);
+        posed->tangents = std::move(pose.tangents);
+        if (instance.skin != kNone) {
+            const Skin& skin = scene_.animation.skins[instance.skin];
+            const glm::dmat4 joint =
+                world_from_node_[skin.joints.front()] * skin.joint_from_mesh.front();
+            flat.mirrored = glm::determinant(glm::dmat3(joint)) < 0;
+        }
+        flat.mesh = posed.get();
+        flat.posed = std::move(posed);
+        flat.group_from_mesh = glm::dmat4(1);
+    }
+
+    /// False for what can never be hit.
+    bool add_triangle(const FlatTriangle& triangle)
+    {
+        const bool usable =
+            has_area(triangle.vertices) || placements_[object_] == Placement::kDeforming;
+        if (usable)
+            group().triangles.push_back(triangle);
         flat_.dropped_triangles += usable ? 0 : 1;
         return usable;
     }
 
-    /// Index + 1 of the light, or 0 when this emits nothing worth choosing.
+    /// The number a primitive goes by: index + 1 of its light, 0 when it emits nothing worth
+    /// choosing; within a group of instances a count from 1.
+    std::uint32_t light(Light shape)
+    {
+        if (in_instance_)
+            return next_light_++;
+        return is_sampled(scene_, object()) ? add_light(shape) : 0;
+    }
+
     std::uint32_t add_light(Light light)
     {
-        const Object& object = scene_.objects[object_];
-        if (!is_sampled(scene_, object) || !(light.area > 0))
+        // What moves may gain or lose its area, and an instance's lights are counted.
+        if (!(light.area > 0) && placements_[object_] == Placement::kWorld)
             return 0;
         light.object = object_;
         flat_.lights.push_back(light);
         return static_cast<std::uint32_t>(flat_.lights.size());
     }
 
+    FlatGroup& group() { return flat_.groups[group_]; }
+
     const Scene& scene_;
+    std::vector<Placement> placements_;
+    std::vector<glm::dmat4> world_from_node_;
+    std::map<std::uint32_t, std::size_t> group_of_mesh_;
     std::uint32_t object_ = 0;
+    std::size_t group_ = 0;
+    bool in_instance_ = false;
+    std::uint32_t next_light_ = 1;  ///< In the group of instances being filled.
     FlatScene flat_;
 };
 
 }  // namespace
+
+std::vector<Placement> placements_of(const Scene& scene)
+{
+    const std::vector<bool> moving = moving_nodes(scene.animation);
+    const std::vector<glm::dmat4> world_from_node = pose_nodes(scene.animation, 0);
+    std::vector<Placement> placements;
+    std::map<const Mesh*, std::size_t> shown;  // by objects at rest
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const bool moves = object.node != kNone && moving[object.node];
+        const bool round = std::holds_alternative<Sphere>(object.shape)
+            || std::holds_alternative<Disk>(object.shape);
+        const bool squeezed = round && object.node != kNone
+            && !is_similarity(glm::dmat3(world_from_node[object.node]));
+        if (changes_shape(scene, i, moving) || (moves && has_pose(scene, object)))
+            placements.push_back(Placement::kDeforming);
+        else
+            placements.push_back(moves || squeezed ? Placement::kInstance : Placement::kWorld);
+        if (placements.back() == Placement::kWorld && !has_pose(scene, object))
+            ++shown[mesh_of(scene, object)];
+    }
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const Mesh* mesh = mesh_of(scene, scene.objects[i]);
+        if (mesh != nullptr && placements[i] == Placement::kWorld
+            && !has_pose(scene, scene.objects[i])
+            && (shown[mesh] - 1) * mesh->triangles.size() >= kSharedTriangles)
+            placements[i] = Placement::kInstance;
+    }
+    return placements;
+}
+
+glm::uvec3 corners_of(const FlatObject& object, std::uint32_t face)
+{
+    return wound(object.mesh->triangles[face], object.mirrored);
+}
+
+bool has_area(const std::array<glm::vec3, 3>& vertices)
+{
+    const auto& [a, b, c] = vertices;
+    const double area =
+        glm::length(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)));
+    return area > 0 && std::isfinite(area);
+}
 
 FlatScene flatten(const Scene& scene)
 {

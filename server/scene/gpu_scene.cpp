@@ -1,15 +1,31 @@
-// Uploading.
+// Uploading, and bringing up to date what moves.
 #include "server/scene/gpu_scene.h"
 
 #include "server/gl/gl_error.h"
+#include "shaders/shared/scene_layout.h"
 
 #include <algorithm>
 
 namespace farlight {
 
-GpuScene::GpuScene(const Scene& scene)
+namespace {
+
+/// Factors of the tracks that drive `target`, one an index; none where no track does.
+std::vector<float> factors_at(
+    const Animation& animation, Track::Target target, std::size_t count, double time)
 {
-    const PackedScene packed = pack_scene(scene, device_texture_limits());
+    std::vector<float> factors;
+    if (drives(animation, target))
+        for (std::uint32_t i = 0; i < count; ++i)
+            factors.push_back(static_cast<float>(factor_at(animation, target, i, time)));
+    return factors;
+}
+
+}  // namespace
+
+GpuScene::GpuScene(const Scene& scene) : scene_(scene)
+{
+    PackedScene packed = pack_scene(scene, device_texture_limits());
     effects_ = packed.effects;
     triangle_count_ = packed.content.triangles;
     light_count_ = packed.lights->count();
@@ -26,6 +42,69 @@ GpuScene::GpuScene(const Scene& scene)
     textures_.insert(images_->textures().begin(), images_->textures().end());
     for (const TextureArrays::Array& array : images_->arrays())
         allocations_.push_back({array.name, array.bytes});
+    materials_ = std::move(packed.materials);
+    moving_.emplace(std::move(*packed.moving));
+    lights_.emplace(std::move(*packed.lights));
+    if (!scene.animation.empty())
+        update_lights();
+}
+
+void GpuScene::pose(double time, double prev_time)
+{
+    if (scene_.animation.empty())
+        return;
+    const MovingScene::Changes changes = moving_->pose(time, prev_time);
+    time_ = time;
+    if (changes.now)
+        update_now();
+    if (changes.previous) {
+        update("prev_instances", moving_->prev_instances());
+        update("prev_vertices", moving_->deforming().prev_vertices);
+    }
+}
+
+void GpuScene::update_now()
+{
+    const DeformingTables& deforming = moving_->deforming();
+    update("bvh_nodes", moving_->top_level());
+    update("instances", moving_->instances());
+    update("bvh_nodes", deforming.bvh_nodes, deforming.first_node);
+    update(
+        "triangles", deforming.triangles, deforming.first_triangle * std::size_t{TRIANGLE_TEXELS});
+    update("normals", deforming.normals, deforming.first_triangle);
+    update("tangents", deforming.tangents, deforming.first_triangle);
+    update_lights();
+}
+
+/// Lights where they are, as strong as they are; what emits shows as much as is sampled of it.
+void GpuScene::update_lights()
+{
+    const Animation& animation = scene_.animation;
+    const auto emission =
+        factors_at(animation, Track::Target::kMaterialEmission, scene_.materials.size(), time_);
+    const auto intensity =
+        factors_at(animation, Track::Target::kLightIntensity, scene_.lights.size(), time_);
+    background_factor_ =
+        static_cast<float>(factor_at(animation, Track::Target::kBackground, 0, time_));
+    lights_->update(
+        moving_->lights(), {emission, intensity, moving_->world_from_node(), background_factor_});
+    update("lights", lights_->lights());
+    update("light_tree", lights_->tree());
+    if (emission.empty())
+        return;
+    Texels materials = materials_;
+    for (std::size_t i = 0; i < emission.size(); ++i) {
+        glm::uvec4& target = materials[i * MATERIAL_TEXELS + MATERIAL_EMISSION];
+        target = texel(glm::uintBitsToFloat(glm::uvec3(target)) * emission[i], target.w);
+    }
+    update("materials", materials);
+}
+
+void GpuScene::update(const char* name, const Texels& texels, std::size_t first_texel)
+{
+    if (!texels.empty())
+        buffers_[buffer_of_.at(name)].update(
+            std::as_bytes(std::span<const glm::uvec4>(texels)), first_texel * sizeof texels[0]);
 }
 
 void GpuScene::upload(const char* name, const Texels& texels)
@@ -39,6 +118,7 @@ void GpuScene::upload(const char* name, const Texels& texels)
     if (texels.size() > static_cast<std::size_t>(limit))
         throw GlError("the scene needs " + std::to_string(texels.size()) + " texels for '" + name
             + "', but this device allows " + std::to_string(limit) + " in a buffer texture");
+    buffer_of_[name] = buffers_.size();
     buffers_.emplace_back(name, std::as_bytes(std::span<const glm::uvec4>(texels)));
     textures_[name] = buffers_.back().texture(GL_RGBA32UI);
     allocations_.push_back({name, buffers_.back().size()});

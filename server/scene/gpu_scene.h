@@ -21,9 +21,17 @@ struct Allocation {
 
 class GpuScene {
 public:
-    /// Throws GlError naming buffer, limit and need when the scene is larger than the device
-    /// allows.
+    /// At time 0. Throws GlError naming buffer, limit and need when the scene is larger than the
+    /// device allows. Of `scene` everything but meshes and images must outlive this.
     explicit GpuScene(const Scene& scene);
+
+    /// Brings what moves to `time` and its past to `prev_time` [s]; costs nothing when neither has
+    /// changed. Frames that are drawn after it see it, frames before it do not.
+    void pose(double time, double prev_time);
+    /// Whether anything depends on time.
+    bool moves() const { return !scene_.animation.empty(); }
+    /// Factor on the scene's background now.
+    float background_factor() const { return background_factor_; }
 
     /// Every buffer texture by the name shaders use. What the scene has nothing for shares one
     /// texel of zeros, so that a program with more effects than the scene finds all it binds.
@@ -40,8 +48,18 @@ public:
 
 private:
     void upload(const char* name, const Texels& texels);
+    void update(const char* name, const Texels& texels, std::size_t first_texel = 0);
+    void update_now();
+    void update_lights();
 
+    const Scene& scene_;
+    std::optional<MovingScene> moving_;
+    std::optional<LightTable> lights_;
+    Texels materials_;  ///< Without the factors of tracks.
+    double time_ = 0;
+    float background_factor_ = 1;
     std::vector<Buffer> buffers_;
+    std::map<std::string, std::size_t, std::less<>> buffer_of_;  ///< Index into buffers_.
     std::unique_ptr<TextureArrays> images_;
     std::vector<Allocation> allocations_;
     std::map<std::string, GLuint, std::less<>> textures_;

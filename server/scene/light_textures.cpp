@@ -14,14 +14,15 @@ std::array<glm::vec2, 3> corner_uvs(const Scene& scene, const Light& light, std:
 {
     const auto& shape = scene.objects[light.object].shape;
     if (std::holds_alternative<Quad>(shape))
-        return {glm::vec2(0, 1), glm::vec2(1, 1), glm::vec2(0, 0)};
+        return light.mirrored ? std::array<glm::vec2, 3>{{{0, 1}, {0, 0}, {1, 1}}}
+                              : std::array<glm::vec2, 3>{{{0, 1}, {1, 1}, {0, 0}}};
     std::array<glm::vec2, 3> uv{};
     if (const auto* instance = std::get_if<MeshInstance>(&shape)) {
         const Mesh& mesh = scene.meshes[instance->mesh];
         const std::vector<glm::vec2>& uvs = mesh.uvs[uv_set];
+        const glm::uvec3 corners = wound(mesh.triangles[light.face], light.mirrored);
         for (int k = 0; k < 3 && !uvs.empty(); ++k)
-            uv[static_cast<std::size_t>(k)] =
-                uvs[mesh.triangles[light.face][corner_of(k, light.mirrored)]];
+            uv[static_cast<std::size_t>(k)] = uvs[corners[k]];
     }
     return uv;
 }

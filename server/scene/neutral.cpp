@@ -17,12 +17,6 @@ bool is_black(const glm::vec3& v)
 
 // ---------------------------------------------------------------- tracks
 
-std::size_t width_of(const Track& track)
-{
-    const std::size_t numbers = track.interpolation == Track::Interpolation::kCubic ? 3 : 1;
-    return track.values.size() / (numbers * track.times.size());
-}
-
 /// The value that the track holds at all times, if it never changes.
 std::optional<std::vector<float>> constant_value(const Track& track)
 {

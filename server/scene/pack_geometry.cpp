@@ -4,37 +4,16 @@
 #include "shaders/shared/scene_layout.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 
 namespace farlight {
 namespace {
 
-/// What an object does to the attributes of its mesh.
-struct Placement {
-    const Mesh* mesh = nullptr;  ///< None: a quad.
-    glm::mat3 world_from_tangent{1};
-    glm::mat3 world_from_normal{1};
-    bool mirrored = false;
-    int tangent_set = 0;  ///< The uv set that the normal map is looked up with.
-};
-
-Placement placement_of(const Scene& scene, const Object& object)
-{
-    Placement placement;
-    placement.tangent_set = scene.materials[object.material].normal_texture.uv_set;
-    if (const auto* instance = std::get_if<MeshInstance>(&object.shape)) {
-        const glm::dmat3 linear(instance->world_from_object);
-        placement.mesh = &scene.meshes[instance->mesh];
-        placement.world_from_tangent = glm::mat3(linear);
-        placement.world_from_normal = glm::mat3(glm::inverseTranspose(linear));
-        placement.mirrored = glm::determinant(linear) < 0;
-    }
-    return placement;
-}
+using Uvs = std::array<glm::vec2, 3>;
 
 /// log2 of the square root of a ratio of areas; a face without area on the image stays on level 0.
-float log2_uv_per_metre(
-    const std::array<glm::vec3, 3>& vertices, const std::array<glm::vec2, 3>& uv)
+float log2_uv_per_metre(const std::array<glm::vec3, 3>& vertices, const Uvs& uv)
 {
     const glm::dvec2 u(uv[1] - uv[0]);
     const glm::dvec2 v(uv[2] - uv[0]);
@@ -46,7 +25,7 @@ float log2_uv_per_metre(
 
 /// The direction in which u grows, and on which side of it v does (Lengyel 2001, "Computing Tangent
 /// Space Basis Vectors for an Arbitrary Mesh"); any direction where the uvs tell none.
-glm::vec4 face_tangent(const std::array<glm::vec3, 3>& vertices, const std::array<glm::vec2, 3>& uv)
+glm::vec4 face_tangent(const std::array<glm::vec3, 3>& vertices, const Uvs& uv)
 {
     const glm::vec3 edge_u = vertices[1] - vertices[0];
     const glm::vec3 edge_v = vertices[2] - vertices[0];
@@ -59,142 +38,141 @@ glm::vec4 face_tangent(const std::array<glm::vec3, 3>& vertices, const std::arra
         area < 0 ? 1.0F : -1.0F};
 }
 
-class TrianglePacker {
-public:
-    TrianglePacker(const Scene& scene, const WantedAttributes& wanted, PackedGeometry& packed)
-        : scene_(scene)
-        , wanted_(wanted)
-        , packed_(packed)
-    {
-        for (const Object& object : scene.objects)
-            placements_.push_back(placement_of(scene, object));
-    }
-
-    void pack(const FlatTriangle& triangle)
-    {
-        const auto& [a, b, c] = triangle.vertices;
-        packed_.triangles.push_back(texel(a, triangle.object));
-        packed_.triangles.push_back(texel(b, scene_.objects[triangle.object].material));
-        packed_.triangles.push_back(texel(c, triangle.light));
-        placement_ = &placements_[triangle.object];
-        for (int k = 0; k < 3; ++k)
-            corners_[k] = placement_->mesh == nullptr
-                ? 0
-                : placement_->mesh->triangles[triangle.face][corner_of(k, placement_->mirrored)];
-        if (wanted_.normals)
-            packed_.normals.push_back(normals());
-        for (int set = 0; set < 2; ++set)
-            if (wanted_.uvs[set])
-                pack_uvs(triangle, set);
-        if (wanted_.tangents)
-            packed_.tangents.push_back(tangents(triangle));
-        if (wanted_.colors)
-            pack_colors();
-    }
-
-private:
-    glm::uvec4 normals() const
-    {
-        glm::uvec4 packed(0);
-        if (placement_->mesh == nullptr || placement_->mesh->normals.empty())
-            return packed;
-        for (int k = 0; k < 3; ++k)
-            packed[k] = pack_octahedral(
-                placement_->world_from_normal * placement_->mesh->normals[corners_[k]]);
-        packed.w = 1;
-        return packed;
-    }
-
-    std::array<glm::vec2, 3> uvs(const FlatTriangle& triangle, int set) const
-    {
-        if (placement_->mesh == nullptr)
-            return triangle.face == 0 ? std::array<glm::vec2, 3>{{{0, 1}, {1, 1}, {1, 0}}}
-                                      : std::array<glm::vec2, 3>{{{0, 1}, {1, 0}, {0, 0}}};
-        std::array<glm::vec2, 3> uv{};
-        if (const auto& list = placement_->mesh->uvs[set]; !list.empty())
-            for (int k = 0; k < 3; ++k)
-                uv[static_cast<std::size_t>(k)] = list[corners_[k]];
-        return uv;
-    }
-
-    void pack_uvs(const FlatTriangle& triangle, int set)
-    {
-        const auto uv = uvs(triangle, set);
-        packed_.uvs[set].emplace_back(bits(uv[0].x), bits(uv[0].y), bits(uv[1].x), bits(uv[1].y));
-        packed_.uvs[set].emplace_back(
-            bits(uv[2].x), bits(uv[2].y), bits(log2_uv_per_metre(triangle.vertices, uv)), 0);
-    }
-
-    glm::uvec4 tangents(const FlatTriangle& triangle) const
-    {
-        if (placement_->mesh == nullptr || placement_->mesh->tangents.empty()) {
-            const glm::vec4 tangent =
-                face_tangent(triangle.vertices, uvs(triangle, placement_->tangent_set));
-            const std::uint32_t word = pack_octahedral(glm::vec3(tangent));
-            return {word, word, word, tangent.w < 0 ? 7U : 0U};
-        }
-        glm::uvec4 packed(0);
-        for (int k = 0; k < 3; ++k) {
-            const glm::vec4& tangent = placement_->mesh->tangents[corners_[k]];
-            packed[k] = pack_octahedral(placement_->world_from_tangent * glm::vec3(tangent));
-            packed.w |= (tangent.w < 0) != placement_->mirrored ? 1U << k : 0U;
-        }
-        return packed;
-    }
-
-    void pack_colors()
-    {
-        std::array<glm::uvec2, 3> halves;
-        for (int k = 0; k < 3; ++k) {
-            const bool colored = placement_->mesh != nullptr && !placement_->mesh->colors.empty();
-            const glm::vec4 color = colored ? placement_->mesh->colors[corners_[k]] : glm::vec4(1);
-            halves[static_cast<std::size_t>(k)] = {
-                glm::packHalf2x16({color.x, color.y}), glm::packHalf2x16({color.z, color.w})};
-        }
-        packed_.colors.emplace_back(halves[0], halves[1]);
-        packed_.colors.emplace_back(halves[2], glm::uvec2(0));
-    }
-
-    const Scene& scene_;
-    const WantedAttributes& wanted_;
-    PackedGeometry& packed_;
-    std::vector<Placement> placements_;  ///< One an object.
-    const Placement* placement_ = nullptr;  ///< Of the triangle being packed.
-    glm::uvec3 corners_{0};
-};
-
-void pack_sphere(PackedGeometry& packed, const Scene& scene, const FlatSphere& sphere)
+/// A quad's halves: corner, + edge_u, opposite; corner, opposite, + edge_v. Mirrored: the edges
+/// have changed places.
+Uvs quad_uvs(std::uint32_t face, bool mirrored)
 {
-    packed.spheres.push_back(texel(sphere.center, bits(sphere.radius)));
-    packed.spheres.emplace_back(
-        sphere.object, scene.objects[sphere.object].material, sphere.light, 0);
+    const glm::vec2 at_u = mirrored ? glm::vec2(0, 0) : glm::vec2(1, 1);
+    const glm::vec2 at_v = mirrored ? glm::vec2(1, 1) : glm::vec2(0, 0);
+    return face == 0 ? Uvs{{{0, 1}, at_u, {1, 0}}} : Uvs{{{0, 1}, {1, 0}, at_v}};
 }
 
-void pack_disk(PackedGeometry& packed, const Scene& scene, const FlatDisk& disk)
+Uvs uvs_of(const FlatObject& object, const FlatTriangle& triangle, int set)
 {
-    packed.disks.push_back(texel(disk.center, bits(disk.radius)));
-    packed.disks.push_back(texel(disk.normal, 0));
-    packed.disks.emplace_back(disk.object, scene.objects[disk.object].material, disk.light, 0);
+    if (object.mesh == nullptr)
+        return quad_uvs(triangle.face, object.mirrored);
+    Uvs uv{};
+    if (const auto& list = object.mesh->uvs[set]; !list.empty()) {
+        const glm::uvec3 corners = corners_of(object, triangle.face);
+        for (int k = 0; k < 3; ++k)
+            uv[static_cast<std::size_t>(k)] = list[corners[k]];
+    }
+    return uv;
+}
+
+glm::uvec2 pack_color(const glm::vec4& color)
+{
+    return {glm::packHalf2x16({color.x, color.y}), glm::packHalf2x16({color.z, color.w})};
 }
 
 }  // namespace
 
-PackedGeometry pack_geometry(const Scene& scene, const FlatScene& flat,
-    std::span<const std::uint32_t> order, const WantedAttributes& wanted)
+glm::uvec4 pack_normals(const std::vector<glm::vec3>& normals, const glm::uvec3& corners,
+    const glm::mat3& group_from_normal)
 {
-    PackedGeometry packed;
-    packed.triangles.reserve(flat.triangles.size() * TRIANGLE_TEXELS);
-    TrianglePacker triangles(scene, wanted, packed);
-    const std::size_t first_disk = flat.triangles.size() + flat.spheres.size();
-    for (const std::uint32_t i : order) {
-        if (i < flat.triangles.size())
-            triangles.pack(flat.triangles[i]);
-        else if (i < first_disk)
-            pack_sphere(packed, scene, flat.spheres[i - flat.triangles.size()]);
-        else
-            pack_disk(packed, scene, flat.disks[i - first_disk]);
+    glm::uvec4 packed(0, 0, 0, 1);
+    for (int k = 0; k < 3; ++k)
+        packed[k] = pack_octahedral(group_from_normal * normals[corners[k]]);
+    return packed;
+}
+
+glm::uvec4 pack_tangents(const std::vector<glm::vec4>& tangents, const glm::uvec3& corners,
+    const glm::mat3& group_from_mesh, bool mirrored)
+{
+    glm::uvec4 packed(0);
+    for (int k = 0; k < 3; ++k) {
+        const glm::vec4& tangent = tangents[corners[k]];
+        packed[k] = pack_octahedral(group_from_mesh * glm::vec3(tangent));
+        packed.w |= (tangent.w < 0) != mirrored ? 1U << k : 0U;
     }
     return packed;
+}
+
+GeometryPacker::GeometryPacker(
+    const Scene& scene, const FlatScene& flat, const WantedAttributes& wanted)
+    : scene_(scene)
+    , flat_(flat)
+    , wanted_(wanted)
+{
+    std::size_t triangles = 0;
+    for (const FlatGroup& group : flat.groups)
+        triangles += group.triangles.size();
+    packed_.triangles.reserve(triangles * TRIANGLE_TEXELS);
+}
+
+void GeometryPacker::pack(const FlatGroup& group, std::span<const std::uint32_t> order)
+{
+    const std::size_t first_disk = group.triangles.size() + group.spheres.size();
+    for (const std::uint32_t i : order) {
+        if (i < group.triangles.size())
+            pack_triangle(group.triangles[i]);
+        else if (i < first_disk)
+            pack_sphere(group.spheres[i - group.triangles.size()]);
+        else
+            pack_disk(group.disks[i - first_disk]);
+    }
+}
+
+void GeometryPacker::pack_triangle(const FlatTriangle& triangle)
+{
+    const auto& [a, b, c] = triangle.vertices;
+    packed_.triangles.push_back(texel(a, triangle.object));
+    packed_.triangles.push_back(texel(b, scene_.objects[triangle.object].material));
+    packed_.triangles.push_back(texel(c, triangle.light));
+    pack_attributes(triangle);
+}
+
+void GeometryPacker::pack_attributes(const FlatTriangle& triangle)
+{
+    const FlatObject& object = flat_.objects[triangle.object];
+    const glm::uvec3 corners =
+        object.mesh == nullptr ? glm::uvec3(0) : corners_of(object, triangle.face);
+    const auto has = [&](const auto list) {
+        return object.mesh != nullptr && !(object.mesh->*list).empty();
+    };
+    if (wanted_.normals)
+        packed_.normals.push_back(!has(&Mesh::normals)
+                ? glm::uvec4(0)
+                : pack_normals(object.mesh->normals, corners, object.group_from_normal));
+    for (int set = 0; set < 2; ++set)
+        if (wanted_.uvs[set]) {
+            const Uvs uv = uvs_of(object, triangle, set);
+            packed_.uvs[set].emplace_back(
+                bits(uv[0].x), bits(uv[0].y), bits(uv[1].x), bits(uv[1].y));
+            packed_.uvs[set].emplace_back(
+                bits(uv[2].x), bits(uv[2].y), bits(log2_uv_per_metre(triangle.vertices, uv)), 0);
+        }
+    if (wanted_.tangents && has(&Mesh::tangents)) {
+        packed_.tangents.push_back(pack_tangents(
+            object.mesh->tangents, corners, glm::mat3(object.group_from_mesh), object.mirrored));
+    } else if (wanted_.tangents) {
+        const int set =
+            scene_.materials[scene_.objects[triangle.object].material].normal_texture.uv_set;
+        const glm::vec4 tangent = face_tangent(triangle.vertices, uvs_of(object, triangle, set));
+        packed_.tangents.emplace_back(
+            glm::uvec3(pack_octahedral(glm::vec3(tangent))), tangent.w < 0 ? 7U : 0U);
+    }
+    if (wanted_.colors) {
+        const auto color = [&](int k) {
+            return pack_color(has(&Mesh::colors) ? object.mesh->colors[corners[k]] : glm::vec4(1));
+        };
+        packed_.colors.emplace_back(color(0), color(1));
+        packed_.colors.emplace_back(color(2), glm::uvec2(0));
+    }
+}
+
+void GeometryPacker::pack_sphere(const FlatSphere& sphere)
+{
+    packed_.spheres.push_back(texel(sphere.center, bits(sphere.radius)));
+    packed_.spheres.emplace_back(
+        sphere.object, scene_.objects[sphere.object].material, sphere.light, 0);
+}
+
+void GeometryPacker::pack_disk(const FlatDisk& disk)
+{
+    packed_.disks.push_back(texel(disk.center, bits(disk.radius)));
+    packed_.disks.push_back(texel(disk.normal, 0));
+    packed_.disks.emplace_back(disk.object, scene_.objects[disk.object].material, disk.light, 0);
 }
 
 }  // namespace farlight

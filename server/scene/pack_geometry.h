@@ -28,8 +28,34 @@ struct PackedGeometry {
     Texels colors;
 };
 
-/// `order`: as Bvh::order over the triangles, then the spheres, then the disks of `flat`.
-PackedGeometry pack_geometry(const Scene& scene, const FlatScene& flat,
-    std::span<const std::uint32_t> order, const WantedAttributes& wanted);
+/// Fills the tables group by group.
+class GeometryPacker {
+public:
+    /// Both must outlive the packer.
+    GeometryPacker(const Scene& scene, const FlatScene& flat, const WantedAttributes& wanted);
+
+    /// `order`: as Bvh::order over the triangles, then the spheres, then the disks of `group`.
+    void pack(const FlatGroup& group, std::span<const std::uint32_t> order);
+    PackedGeometry& packed() { return packed_; }
+
+private:
+    void pack_triangle(const FlatTriangle& triangle);
+    void pack_sphere(const FlatSphere& sphere);
+    void pack_disk(const FlatDisk& disk);
+    void pack_attributes(const FlatTriangle& triangle);
+
+    const Scene& scene_;
+    const FlatScene& flat_;
+    WantedAttributes wanted_;
+    PackedGeometry packed_;
+};
+
+/// One texel: a triangle's shading normals in its group's space.
+glm::uvec4 pack_normals(const std::vector<glm::vec3>& normals, const glm::uvec3& corners,
+    const glm::mat3& group_from_normal);
+
+/// One texel: a triangle's tangents in its group's space.
+glm::uvec4 pack_tangents(const std::vector<glm::vec4>& tangents, const glm::uvec3& corners,
+    const glm::mat3& group_from_mesh, bool mirrored);
 
 }  // namespace farlight

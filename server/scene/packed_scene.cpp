@@ -4,7 +4,9 @@
 #include "server/scene/albedo_tables.h"
 #include "server/scene/bvh.h"
 #include "server/scene/materials.h"
+#include "shaders/shared/scene_layout.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,23 +36,22 @@ PrimitiveBounds bounds_of(const FlatDisk& disk)
     return widened(glm::vec3(center - reach), glm::vec3(center + reach));
 }
 
-Bvh tree_over(const FlatScene& flat)
+Bvh tree_over(const FlatGroup& group)
 {
-    const std::size_t count = flat.triangles.size() + flat.spheres.size() + flat.disks.size();
     std::vector<PrimitiveBounds> bounds;
     std::vector<PrimitiveKind> kinds;
-    bounds.reserve(count);
-    kinds.reserve(count);
-    for (const FlatTriangle& triangle : flat.triangles) {
+    bounds.reserve(group.size());
+    kinds.reserve(group.size());
+    for (const FlatTriangle& triangle : group.triangles) {
         const auto& [a, b, c] = triangle.vertices;
         bounds.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
         kinds.push_back(PrimitiveKind::kTriangle);
     }
-    for (const FlatSphere& sphere : flat.spheres) {
+    for (const FlatSphere& sphere : group.spheres) {
         bounds.push_back(widened(sphere.center - sphere.radius, sphere.center + sphere.radius));
         kinds.push_back(PrimitiveKind::kSphere);
     }
-    for (const FlatDisk& disk : flat.disks) {
+    for (const FlatDisk& disk : group.disks) {
         bounds.push_back(bounds_of(disk));
         kinds.push_back(PrimitiveKind::kDisk);
     }
@@ -61,19 +62,23 @@ SceneContent content_of(const Scene& scene, const FlatScene& flat)
 {
     SceneContent content;
     content.drawn.assign(scene.objects.size(), 0);
-    content.triangles = flat.triangles.size();
-    content.spheres = flat.spheres.size();
-    content.disks = flat.disks.size();
-    for (const FlatSphere& sphere : flat.spheres)
-        content.drawn[sphere.object] = 1;
-    for (const FlatDisk& disk : flat.disks)
-        content.drawn[disk.object] = 1;
-    for (const FlatTriangle& triangle : flat.triangles) {
-        content.drawn[triangle.object] = 1;
-        const auto* instance = std::get_if<MeshInstance>(&scene.objects[triangle.object].shape);
-        if (instance != nullptr && !scene.meshes[instance->mesh].normals.empty())
-            ++content.smooth_triangles;
+    for (const FlatGroup& group : flat.groups) {
+        content.triangles += group.triangles.size();
+        content.spheres += group.spheres.size();
+        content.disks += group.disks.size();
+        for (const FlatTriangle& triangle : group.triangles) {
+            content.drawn[triangle.object] = 1;
+            const Mesh* mesh = flat.objects[triangle.object].mesh;
+            content.smooth_triangles += mesh != nullptr && !mesh->normals.empty() ? 1 : 0;
+        }
+        for (const FlatSphere& sphere : group.spheres)
+            content.drawn[sphere.object] = 1;
+        for (const FlatDisk& disk : group.disks)
+            content.drawn[disk.object] = 1;
     }
+    content.instances = flat.instances.size();
+    for (const FlatInstance& instance : flat.instances)
+        content.drawn[instance.object] = 1;
     return content;
 }
 
@@ -88,26 +93,110 @@ WantedAttributes attributes_for(EffectMask effects)
     return wanted;
 }
 
+/// Puts the trees of all groups behind each other, and the geometry in their order.
+class TreePacker {
+public:
+    TreePacker(const Scene& scene, const FlatScene& flat, PackedScene& target)
+        : flat_(flat)
+        , target_(target)
+        , geometry_(scene, flat, attributes_for(mask_of(target.effects)))
+    {
+        // A lone world has no level above it.
+        const std::size_t world = flat.groups[0].size() > 0 ? 1 : 0;
+        const std::size_t others = flat.instances.size() + flat.deforming_objects.size();
+        if (others > 0)
+            target.bvh_nodes.resize(top_level_texels(world + others));
+    }
+
+    MovingScene run(const Scene& scene)
+    {
+        std::vector<DeformingMesh> meshes;
+        DeformingTables deforming;
+        for (std::uint32_t i = 0; i < flat_.groups.size(); ++i) {
+            if (i == flat_.first_deforming) {
+                deforming.first_node = static_cast<std::uint32_t>(target_.bvh_nodes.size());
+                deforming.first_triangle = triangle_count();
+            }
+            const std::uint32_t first = triangle_count() - deforming.first_triangle;
+            const Bvh bvh = add_tree(flat_.groups[i]);
+            if (i >= flat_.first_deforming && flat_.groups[i].size() > 0)
+                meshes.emplace_back(flat_, flat_.groups[i], bvh.order, first, places_.back());
+        }
+        target_.geometry = std::move(geometry_.packed());
+        if (!meshes.empty())
+            take_tails(deforming);
+        return {scene, flat_, places_, target_.bvh_nodes, std::move(meshes), std::move(deforming)};
+    }
+
+private:
+    std::uint32_t triangle_count()
+    {
+        return static_cast<std::uint32_t>(geometry_.packed().triangles.size() / TRIANGLE_TEXELS);
+    }
+
+    Bvh add_tree(const FlatGroup& group)
+    {
+        Bvh bvh = tree_over(group);
+        const PackedGeometry& before = geometry_.packed();
+        const auto root = static_cast<std::uint32_t>(target_.bvh_nodes.size());
+        relocate(bvh.nodes, root,
+            {triangle_count(), static_cast<std::uint32_t>(before.spheres.size() / SPHERE_TEXELS),
+                static_cast<std::uint32_t>(before.disks.size() / DISK_TEXELS)});
+        if (target_.bvh_nodes.empty())
+            target_.bvh_nodes = std::move(bvh.nodes);
+        else
+            target_.bvh_nodes.insert(target_.bvh_nodes.end(), bvh.nodes.begin(), bvh.nodes.end());
+        geometry_.pack(group, bvh.order);
+        places_.push_back(
+            {root, static_cast<std::uint32_t>(target_.bvh_nodes.size()), bvh.stack_depth});
+        return bvh;
+    }
+
+    /// Copies of what will change.
+    void take_tails(DeformingTables& tables)
+    {
+        const auto tail = [](const Texels& table, std::size_t first) {
+            return table.empty()
+                ? Texels()
+                : Texels(table.begin() + static_cast<std::ptrdiff_t>(first), table.end());
+        };
+        const PackedGeometry& g = target_.geometry;
+        tables.bvh_nodes = tail(target_.bvh_nodes, tables.first_node);
+        tables.triangles = tail(g.triangles, tables.first_triangle * std::size_t{TRIANGLE_TEXELS});
+        tables.normals = tail(g.normals, tables.first_triangle);
+        tables.tangents = tail(g.tangents, tables.first_triangle);
+        tables.prev_vertices.resize(PREV_VERTEX_HEADER + tables.triangles.size());
+        tables.prev_vertices[0] = {
+            tables.first_triangle, tables.triangles.size() / std::size_t{TRIANGLE_TEXELS}, 0, 0};
+    }
+
+    const FlatScene& flat_;
+    PackedScene& target_;
+    GeometryPacker geometry_;
+    std::vector<TreePlace> places_;
+};
+
 }  // namespace
 
 PackedScene pack_scene(const Scene& scene, const TextureLimits& limits)
 {
-    FlatScene flat = flatten(scene);
-    Bvh bvh = tree_over(flat);
+    const FlatScene flat = flatten(scene);
     PackedScene packed{.textures = TextureLayout(scene.images)};
     for (const Material& material : scene.materials)
         each_texture(material, [&](const Texture& texture, TexelSpace space) {
             packed.textures.need(texture, space);
         });
     packed.textures.lay_out(limits);
-    packed.lights.emplace(scene, packed.textures, std::move(flat.lights));
+    packed.lights.emplace(scene, packed.textures, flat.lights);
     packed.content = content_of(scene, flat);
     packed.lights->count_kinds(packed.content);
     packed.effects = active_effects(scene, packed.content);
-    packed.bvh_nodes = std::move(bvh.nodes);
-    packed.stack_depth = bvh.stack_depth;
-    packed.geometry =
-        pack_geometry(scene, flat, bvh.order, attributes_for(mask_of(packed.effects)));
+    packed.moving.emplace(TreePacker(scene, flat, packed).run(scene));
+    packed.stack_depth = packed.moving->stack_depth();
+    const Texels& top_level = packed.moving->top_level();
+    std::copy(top_level.begin(), top_level.end(), packed.bvh_nodes.begin());
+    packed.lights->update(
+        packed.moving->lights(), {.world_from_node = packed.moving->world_from_node()});
     packed.materials = pack_materials(scene.materials, packed.textures);
     if (scatters_roughly(scene.materials))
         packed.reflection_albedo = reflection_albedo_table();
@@ -125,6 +214,8 @@ std::vector<std::pair<const char*, const Texels*>> PackedScene::tables() const
         {"colors", &geometry.colors}, {"materials", &materials},
         {"reflection_albedo", &reflection_albedo}, {"dielectric_albedo", &dielectric_albedo},
         {"lights", &lights->lights()}, {"light_tree", &lights->tree()},
+        {"instances", &moving->instances()}, {"prev_instances", &moving->prev_instances()},
+        {"prev_vertices", &moving->deforming().prev_vertices},
         {"light_textures", &lights->textures()}, {"environment", &lights->environment()}};
 }
 

@@ -3,6 +3,7 @@
 
 #include "server/scene/effects.h"
 #include "server/scene/light_table.h"
+#include "server/scene/moving_scene.h"
 #include "server/scene/pack_geometry.h"
 #include "server/scene/textures.h"
 
@@ -18,6 +19,7 @@ struct PackedScene {
     Texels reflection_albedo;
     Texels dielectric_albedo;
     std::optional<LightTable> lights;  ///< Never absent once packed.
+    std::optional<MovingScene> moving;  ///< Never absent once packed; at time 0.
     TextureLayout textures;
     SceneContent content;
     std::vector<ActiveEffect> effects;

@@ -1,56 +1,77 @@
 // World-space bounds.
 #include "server/scene/scene.h"
 
-namespace farlight {
+#include "server/scene/deform.h"
 
+namespace farlight {
 namespace {
 
-Bounds shape_bounds(const Scene& /*scene*/, const Sphere& sphere)
+/// Where things stand at time 0.
+struct Rest {
+    const Scene& scene;
+    std::vector<glm::dmat4> world_from_node = pose_nodes(scene.animation, 0);
+};
+
+void extend_box(
+    Bounds& bounds, const glm::dmat4& m, const glm::dvec3& lower, const glm::dvec3& upper)
 {
-    Bounds bounds;
-    bounds.extend(sphere.center - sphere.radius);
-    bounds.extend(sphere.center + sphere.radius);
-    return bounds;
+    for (unsigned corner = 0; corner < 8; ++corner)
+        bounds.extend(glm::dvec3(m
+            * glm::dvec4((corner & 1U) != 0 ? upper.x : lower.x,
+                (corner & 2U) != 0 ? upper.y : lower.y, (corner & 4U) != 0 ? upper.z : lower.z,
+                1)));
 }
 
-Bounds shape_bounds(const Scene& /*scene*/, const Quad& quad)
+void extend(Bounds& bounds, const Rest& /*rest*/, const Sphere& sphere, const glm::dmat4& m)
 {
-    Bounds bounds;
-    bounds.extend(quad.corner);
-    bounds.extend(quad.corner + quad.edge_u);
-    bounds.extend(quad.corner + quad.edge_v);
-    bounds.extend(quad.corner + quad.edge_u + quad.edge_v);
-    return bounds;
+    // An ellipsoid reaches radius * |row of m| along an axis.
+    const glm::dmat3 rows = glm::transpose(glm::dmat3(m));
+    const glm::dvec3 center(m * glm::dvec4(sphere.center, 1));
+    const glm::dvec3 reach = sphere.radius
+        * glm::dvec3(glm::length(rows[0]), glm::length(rows[1]), glm::length(rows[2]));
+    bounds.extend(center - reach);
+    bounds.extend(center + reach);
 }
 
-Bounds shape_bounds(const Scene& /*scene*/, const Disk& disk)
+void extend(Bounds& bounds, const Rest& /*rest*/, const Quad& quad, const glm::dmat4& m)
 {
-    // A disc reaches radius * sin(angle to its normal) along an axis.
+    for (const glm::dvec3& p : {quad.corner, quad.corner + quad.edge_u, quad.corner + quad.edge_v,
+             quad.corner + quad.edge_u + quad.edge_v})
+        bounds.extend(glm::dvec3(m * glm::dvec4(p, 1)));
+}
+
+void extend(Bounds& bounds, const Rest& /*rest*/, const Disk& disk, const glm::dmat4& m)
+{
+    // A disk reaches radius * sin(angle to its normal) along an axis.
     const glm::dvec3 reach =
         disk.radius * glm::sqrt(glm::max(glm::dvec3(0), 1.0 - disk.normal * disk.normal));
-    Bounds bounds;
-    bounds.extend(disk.center - reach);
-    bounds.extend(disk.center + reach);
-    return bounds;
+    extend_box(bounds, m, disk.center - reach, disk.center + reach);
 }
 
-Bounds shape_bounds(const Scene& scene, const MeshInstance& instance)
+void extend(Bounds& bounds, const Rest& rest, const MeshInstance& instance, const glm::dmat4& m)
 {
-    Bounds bounds;
-    for (const glm::vec3& position : scene.meshes[instance.mesh].positions)
-        bounds.extend(glm::dvec3(instance.world_from_object * glm::dvec4(position, 1)));
-    return bounds;
+    for (const glm::vec3& position : rest.scene.meshes[instance.mesh].positions)
+        bounds.extend(glm::dvec3(m * instance.world_from_object * glm::dvec4(position, 1)));
 }
 
 }  // namespace
 
 Bounds scene_bounds(const Scene& scene)
 {
+    const Rest rest{scene};
     Bounds bounds;
-    for (const Object& object : scene.objects)
-        if (object.framed)
-            bounds.extend(std::visit(
-                [&](const auto& shape) { return shape_bounds(scene, shape); }, object.shape));
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        if (!object.framed)
+            continue;
+        if (has_pose(scene, object)) {
+            for (const glm::vec3& p : pose_object(scene, i, 0, rest.world_from_node).positions)
+                bounds.extend(glm::dvec3(p));
+            continue;
+        }
+        const glm::dmat4 world = carried(object.node, rest.world_from_node, glm::dmat4(1));
+        std::visit([&](const auto& shape) { extend(bounds, rest, shape, world); }, object.shape);
+    }
     return bounds;
 }
 

@@ -8,7 +8,11 @@ uvec4 pack_hit(Hit hit)
 {
     const bool triangle = (hit.slot & BVH_KIND_MASK) == BVH_TRIANGLES;
     const vec2 place = triangle ? hit.barycentric : vec2(hit.t, 0.0);
+#ifdef FX_INSTANCES
+    return uvec4(hit.slot, hit.instance, floatBitsToUint(place));
+#else
     return uvec4(hit.slot, 0u, floatBitsToUint(place));
+#endif
 }
 
 Hit unpack_hit(uvec4 texel)
@@ -18,6 +22,9 @@ Hit unpack_hit(uvec4 texel)
     Hit hit;
     hit.t = triangle ? 0.0 : place.x;
     hit.slot = texel.x;
+#ifdef FX_INSTANCES
+    hit.instance = texel.y;
+#endif
     hit.barycentric = triangle ? place : vec2(0.0);
     return hit;
 }

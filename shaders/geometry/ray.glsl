@@ -7,20 +7,36 @@ const uint NO_HIT = 0xffffffffu;
 
 struct Ray {
     vec3 origin;
-    vec3 direction;  // unit
+    vec3 direction;  // unit, but in an instance's space
 };
 
 struct Hit {
     float t;
     uint slot;         // BVH_TRIANGLES, BVH_SPHERES ... and the place among these in leaf order; NO_HIT if none
     vec2 barycentric;  // weights of the second and third vertex
+#ifdef FX_INSTANCES
+    uint instance;  // geometry/instances.glsl
+#endif
 };
+
+Hit no_hit(float t_max)
+{
+#ifdef FX_INSTANCES
+    return Hit(t_max, NO_HIT, vec2(0.0), 0u);
+#else
+    return Hit(t_max, NO_HIT, vec2(0.0));
+#endif
+}
 
 // A ray prepared for the slab test and the watertight triangle test.
 struct Traversal {
     vec3 origin;
     vec3 direction;
     vec3 inverse_direction;  // finite: a zero component becomes +-1e30
+#ifdef FX_INSTANCES
+    uint instance;  // whose space this is (geometry/instances.glsl)
+    float stretch;  // length of the direction; exactly 1 in the world
+#endif
     vec3 shear;              // of Woop's test: x and y by z, and 1 / z of the permuted direction
     int axis;                // along which the direction is longest
 };
@@ -33,6 +49,10 @@ Traversal prepare(Ray ray)
     Traversal t;
     t.origin = ray.origin;
     t.direction = ray.direction;
+#ifdef FX_INSTANCES
+    t.instance = 0u;
+    t.stretch = 1.0;
+#endif
     const vec3 d = ray.direction;
     // 1e-30 of a unit vector's length: only what 1 / d cannot represent.
     t.inverse_direction = vec3(abs(d.x) > 1e-30 ? 1.0 / d.x : 1e30, abs(d.y) > 1e-30 ? 1.0 / d.y : 1e30,
@@ -74,6 +94,10 @@ float intersect_triangle(Traversal ray, vec3 v0, vec3 v1, vec3 v2, float t_max, 
 // Ray Tracing Gems, chapter 7: the discriminant from the rejection vector, the roots without cancellation.
 float intersect_sphere(Traversal ray, vec3 center, float radius, float t_max)
 {
+#ifdef FX_INSTANCES
+    ray.direction /= ray.stretch;
+    t_max *= ray.stretch;
+#endif
     precise const vec3 f = ray.origin - center;
     precise const float b = -dot(f, ray.direction);
     precise const vec3 rejection = f + b * ray.direction;
@@ -86,7 +110,12 @@ float intersect_sphere(Traversal ray, vec3 center, float radius, float t_max)
     const float t_a = min(q, other);
     const float t_b = max(q, other);
     const float t = t_a > 0.0 ? t_a : t_b;
-    return t > 0.0 && t < t_max ? t : -1.0;
+    const bool met = t > 0.0 && t < t_max;
+#ifdef FX_INSTANCES
+    return met ? t / ray.stretch : -1.0;
+#else
+    return met ? t : -1.0;
+#endif
 }
 
 // Distance to a disk, or a negative number. Seen edge-on it is not met.

@@ -29,6 +29,16 @@ uniform usamplerBuffer spheres;
 uniform usamplerBuffer disks;
 #endif
 
+#ifdef FX_INSTANCES
+uniform usamplerBuffer instances;
+#ifdef FX_MOTION
+uniform usamplerBuffer prev_instances;
+#endif
+#endif
+#ifdef FX_DEFORMATION
+uniform usamplerBuffer prev_vertices;
+#endif
+
 // A texel of a buffer that may be shorter than others: one that a scene does without has a single texel of zeros.
 uvec4 fetch_attribute(usamplerBuffer source, int at) { return texelFetch(source, min(at, textureSize(source) - 1)); }
 

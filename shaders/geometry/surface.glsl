@@ -1,6 +1,7 @@
 // From a hit to a surface: position, normals, what it is; and rays that leave it without hitting it again.
 #pragma once
 #include "geometry/attributes.glsl"
+#include "geometry/instances.glsl"
 #include "geometry/traverse.glsl"
 #include "lib/packing.glsl"
 #include "lib/sampling.glsl"
@@ -8,11 +9,11 @@
 struct Surface {
     vec3 position;          // world space [m], on the surface within `offset`
     vec3 prev_position;     // where this point of the surface was last frame [m]
+    vec3 extent;            // largest coordinates of the primitive, in the space of its tree [m]
     float offset;           // how far a ray must start off the surface to be free of it [m]
     vec3 geometric_normal;  // unit, towards where the ray came from
     vec3 shading_normal;    // unit, interpolated, same side
     bool front;             // the ray met the side the geometry's own normal points to
-    uint primitive;         // unlike any other's
     uint object;
     uint material;
     uint light;  // index + 1, 0: none
@@ -37,6 +38,13 @@ const float POSITION_ULPS = 16.0 * 5.9604645e-8;
 // The offset for a primitive whose coordinates are at most `extent` in magnitude.
 float position_error(vec3 extent) { return POSITION_ULPS * max_component(extent); }
 
+// `precise`: equal vertices of last frame and this give equal bits, so that what rests has no motion.
+vec3 interpolated_position(vec3 weights, vec3 v0, vec3 v1, vec3 v2)
+{
+    precise const vec3 position = weights.x * v0 + weights.y * v1 + weights.z * v2;
+    return position;
+}
+
 #ifdef FX_TRIANGLES
 void triangle_surface(Hit hit, inout Surface s)
 {
@@ -51,9 +59,9 @@ void triangle_surface(Hit hit, inout Surface s)
     s.object = a.w;
     s.material = b.w;
     s.light = c.w;
-    s.position = weights.x * v0 + weights.y * v1 + weights.z * v2;
+    s.position = interpolated_position(weights, v0, v1, v2);
     s.geometric_normal = normalize(cross(v1 - v0, v2 - v0));
-    s.offset = position_error(max(abs(v0), max(abs(v1), abs(v2))));
+    s.extent = max(abs(v0), max(abs(v1), abs(v2)));
     s.shading_normal = s.geometric_normal;
 #ifdef FX_SHADING_NORMALS
     s.shading_normal = interpolated_normal(place, weights, s.geometric_normal);
@@ -82,7 +90,7 @@ void sphere_surface(Hit hit, Ray ray, inout Surface s)
     s.light = ids.z;
     s.geometric_normal = s.shading_normal = normal;
     s.position = sphere.xyz + sphere.w * normal;
-    s.offset = position_error(abs(sphere.xyz) + sphere.w);
+    s.extent = abs(sphere.xyz) + sphere.w;
 #ifdef FX_TEXTURES
     s.uv[0] = s.uv[1] = longitude_latitude(normal);
     s.log2_uv_per_metre = vec2(-0.5 * log2(4.0 * PI * sphere.w * sphere.w));
@@ -109,7 +117,7 @@ void disk_surface(Hit hit, Ray ray, inout Surface s)
     s.light = ids.z;
     s.geometric_normal = s.shading_normal = normal;
     s.position = disk.xyz + (from_center - dot(from_center, normal) * normal);
-    s.offset = position_error(abs(disk.xyz) + disk.w);
+    s.extent = abs(disk.xyz) + disk.w;
 #ifdef FX_TEXTURES
     s.uv[0] = s.uv[1] = vec2(0.0);
     s.log2_uv_per_metre = vec2(-30.0);  // one texel all over
@@ -133,16 +141,79 @@ void face_the_ray(Ray ray, inout Surface s)
     s.shading_normal = dot(smooth_normal, ray.direction) < 0.0 ? smooth_normal : s.geometric_normal;
 }
 
+#ifdef FX_INSTANCES
+// Roundings of coordinates, in units of 2^-24, on the way of a hit point into the world and of the next ray back:
+// interpolating and testing again as above, in the object's space; the way out (4); the way in (5 and one for each
+// matrix entry).
+const float ROUNDINGS_IN_OBJECT = 16.0;
+const float ROUNDINGS_OUT = 4.0;
+const float ROUNDINGS_IN = 6.0;
+
+// Takes a surface found in the space of instance `instance` to the world. `extent`: largest coordinates in the
+// object's space.
+void place_in_world(uint instance, inout Surface s)
+{
+    const Transform m = world_from_object(instance);
+    const Transform inverse = object_from_world(instance);
+    const uvec4 ids = instance_ids(instance);
+    const vec2 scale = uintBitsToFloat(fetch_attribute(instances, instance_at(instance) + INSTANCE_SCALE).xy);
+    const bool lit = ids.w != 0u && s.light != 0u;
+    s.object = ids.y;
+    s.material = ids.z;
+    s.light = lit ? ids.w + s.light - 1u : 0u;
+#ifdef FX_MOTION
+    s.prev_position = transform_point(load_transform(prev_instances, (int(instance) - 1) * PREV_INSTANCE_TEXELS), s.position);
+#endif
+    s.position = transform_point(m, s.position);
+    s.geometric_normal = normalize(transform_normal(inverse, s.geometric_normal));
+    s.shading_normal = normalize(transform_normal(inverse, s.shading_normal));
+    const vec3 linear_extent = vec3(dot(abs(m.x.xyz), s.extent), dot(abs(m.y.xyz), s.extent), dot(abs(m.z.xyz), s.extent));
+    const vec3 world_extent = transform_extent(m, s.extent);
+    const vec3 way_in = transform_extent(inverse, abs(s.position));
+    const vec3 way_in_extent = vec3(dot(abs(m.x.xyz), way_in), dot(abs(m.y.xyz), way_in), dot(abs(m.z.xyz), way_in));
+    s.offset = 5.9604645e-8
+        * max_component(ROUNDINGS_IN_OBJECT * linear_extent + ROUNDINGS_OUT * world_extent + ROUNDINGS_IN * way_in_extent);
+#ifdef FX_TEXTURES
+    s.log2_uv_per_metre -= scale.x;
+#endif
+#ifdef FX_NORMAL_MAPS
+    s.tangent = vec4(normalize(transform_direction(m, s.tangent.xyz)), s.tangent.w * scale.y);
+#endif
+}
+#endif
+
+#ifdef FX_DEFORMATION
+// Where the same point of a triangle that deforms was last frame; `position` for any other.
+vec3 previous_vertex_position(Hit hit, vec3 position)
+{
+    const uvec2 deforming = texelFetch(prev_vertices, 0).xy;
+    const uint place = (hit.slot & BVH_FIRST_MASK) - deforming.x;  // wraps round for those before
+    const bool deforms = (hit.slot & BVH_KIND_MASK) == BVH_TRIANGLES && place < deforming.y;
+    const int at = deforms ? PREV_VERTEX_HEADER + int(place) * TRIANGLE_TEXELS : 0;
+    const vec3 weights = corner_weights(hit.barycentric);
+    const vec3 v0 = uintBitsToFloat(fetch_attribute(prev_vertices, at).xyz);
+    const vec3 v1 = uintBitsToFloat(fetch_attribute(prev_vertices, at + 1).xyz);
+    const vec3 v2 = uintBitsToFloat(fetch_attribute(prev_vertices, at + 2).xyz);
+    const vec3 previous = interpolated_position(weights, v0, v1, v2);
+    return deforms ? previous : position;
+}
+#endif
+
 // A miss gives some surface, which the caller must not use: on SIMD hardware a branch would not be cheaper.
 Surface surface_at(Hit hit, Ray ray)
 {
     hit.slot = hit.slot == NO_HIT ? 0u : hit.slot;
+    Ray local_ray = ray;
+#ifdef FX_INSTANCES
+    const bool placed = hit.instance != NO_INSTANCE;
+    const Ray placed_ray = object_ray(hit.instance, ray);
+    if (placed)
+        local_ray = placed_ray;
+#endif
     Surface s;
-    s.position = vec3(0.0);
-    s.offset = 0.0;
+    s.position = s.extent = vec3(0.0);
     s.geometric_normal = s.shading_normal = vec3(0.0, 0.0, 1.0);
     s.object = s.material = s.light = 0u;
-    s.primitive = hit.slot;
 #ifdef FX_TEXTURES
     s.uv[0] = s.uv[1] = s.log2_uv_per_metre = vec2(0.0);
 #endif
@@ -157,13 +228,21 @@ Surface surface_at(Hit hit, Ray ray)
 #endif
 #ifdef FX_SPHERES
     if ((hit.slot & BVH_KIND_MASK) == BVH_SPHERES)
-        sphere_surface(hit, ray, s);
+        sphere_surface(hit, local_ray, s);
 #endif
 #ifdef FX_DISKS
     if ((hit.slot & BVH_KIND_MASK) == BVH_DISKS)
-        disk_surface(hit, ray, s);
+        disk_surface(hit, local_ray, s);
 #endif
+    s.offset = position_error(s.extent);
     s.prev_position = s.position;
+#ifdef FX_DEFORMATION
+    s.prev_position = previous_vertex_position(hit, s.position);
+#endif
+#ifdef FX_INSTANCES
+    if (placed)
+        place_in_world(hit.instance, s);
+#endif
     face_the_ray(ray, s);
     return s;
 }

@@ -7,6 +7,7 @@
 // Box test: Williams et al. 2005, "An Efficient and Robust Ray-Box Intersection Algorithm"; the far side is
 // widened by 3 ulp after Ize 2013, "Robust BVH Ray Traversal", so that rounding never loses a box.
 #pragma once
+#include "geometry/instances.glsl"
 #include "geometry/ray.glsl"
 #include "geometry/scene.glsl"
 
@@ -42,6 +43,16 @@ void order(inout float t_a, inout float t_b, inout uint a, inout uint b)
     b = swap ? c : b;
 }
 
+void record(inout Hit hit, Traversal ray, float t, uint slot, vec2 barycentric)
+{
+    hit.t = t;
+    hit.slot = slot;
+    hit.barycentric = barycentric;
+#ifdef FX_INSTANCES
+    hit.instance = ray.instance;
+#endif
+}
+
 void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
 {
     const uint slot = (leaf & (BVH_KIND_MASK | BVH_FIRST_MASK)) + k;
@@ -55,7 +66,7 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
             uintBitsToFloat(texelFetch(triangles, at + 1).xyz), uintBitsToFloat(texelFetch(triangles, at + 2).xyz),
             hit.t, barycentric);
         if (t > 0.0 && kind == BVH_TRIANGLES)
-            hit = Hit(t, slot, barycentric);
+            record(hit, ray, t, slot, barycentric);
     }
 #endif
 #ifdef FX_SPHERES
@@ -63,7 +74,7 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
         const vec4 sphere = uintBitsToFloat(texelFetch(spheres, place * SPHERE_TEXELS));
         const float t = intersect_sphere(ray, sphere.xyz, sphere.w, hit.t);
         if (t > 0.0 && kind == BVH_SPHERES)
-            hit = Hit(t, slot, vec2(0.0));
+            record(hit, ray, t, slot, vec2(0.0));
     }
 #endif
 #ifdef FX_DISKS
@@ -72,51 +83,95 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
         const vec3 normal = uintBitsToFloat(texelFetch(disks, place * DISK_TEXELS + 1).xyz);
         const float t = intersect_disk(ray, disk.xyz, normal, disk.w, hit.t);
         if (t > 0.0 && kind == BVH_DISKS)
-            hit = Hit(t, slot, vec2(0.0));
+            record(hit, ray, t, slot, vec2(0.0));
     }
 #endif
 }
 
 uint leaf_count(uint leaf) { return ((leaf >> BVH_COUNT_SHIFT) & 3u) + 1u; }
 
+#ifdef FX_INSTANCES
+// Stands on the stack below an instance's tree: there the ray goes back to the world.
+const uint LEAVE_INSTANCE = 0xffffffffu;
+
+bool changes_space(uint node) { return node >= (BVH_LEAF_BIT | BVH_INSTANCES); }
+
+Traversal prepare_in(uint instance, Ray ray)
+{
+    const Ray local = object_ray(instance, ray);
+    Traversal t = prepare(local);
+    t.instance = instance;
+    t.stretch = length(local.direction);
+    return t;
+}
+#endif
+
+bool holds_primitives(uint node)
+{
+#ifdef FX_INSTANCES
+    return node > BVH_NO_CHILD && !changes_space(node);
+#else
+    return node != BVH_NO_CHILD;
+#endif
+}
+
 // Children are visited nearest first, for shadow rays too: what blocks a ray is more often near than far.
 Hit traverse(Ray r, float t_max, const bool first_hit_ends)
 {
-    const Traversal ray = prepare(r);
-    Hit hit = Hit(t_max, NO_HIT, vec2(0.0));
+    const Traversal world_ray = prepare(r);
+    Traversal ray = world_ray;
+    Hit hit = no_hit(t_max);
     uint stack[BVH_STACK_SIZE];
     int depth = 0;
     uint node = t_max > 0.0 ? 0u : BVH_NO_CHILD;
+    // A loop around the loops: every lane that still runs has come to where it changes space before any does.
     do {
         do {
-            const bool inner = node < BVH_NO_CHILD;
-            NodeHit box = intersect_node(ray, inner ? node : 0u, hit.t);
-            order(box.t.x, box.t.y, box.children.x, box.children.y);
-            order(box.t.z, box.t.w, box.children.z, box.children.w);
-            order(box.t.x, box.t.z, box.children.x, box.children.z);
-            order(box.t.y, box.t.w, box.children.y, box.children.w);
-            order(box.t.y, box.t.z, box.children.y, box.children.z);
-            if (inner) {
-                if (box.t.w < T_INFINITY)
-                    stack[depth++] = box.children.w;
-                if (box.t.z < T_INFINITY)
-                    stack[depth++] = box.children.z;
-                if (box.t.y < T_INFINITY)
-                    stack[depth++] = box.children.y;
-                node = box.children.x;
-                if (!(box.t.x < T_INFINITY))
-                    node = depth > 0 ? stack[--depth] : BVH_NO_CHILD;
-            }
-        } while (node < BVH_NO_CHILD);
-
-        if (node != BVH_NO_CHILD) {
-            uint k = 0u;
             do {
-                intersect_primitive(ray, node, k, hit);
-            } while (++k < leaf_count(node));
-            const bool ended = first_hit_ends && hit.slot != NO_HIT;
-            node = depth > 0 && !ended ? stack[--depth] : BVH_NO_CHILD;
+                const bool inner = node < BVH_NO_CHILD;
+                NodeHit box = intersect_node(ray, inner ? node : 0u, hit.t);
+                order(box.t.x, box.t.y, box.children.x, box.children.y);
+                order(box.t.z, box.t.w, box.children.z, box.children.w);
+                order(box.t.x, box.t.z, box.children.x, box.children.z);
+                order(box.t.y, box.t.w, box.children.y, box.children.w);
+                order(box.t.y, box.t.z, box.children.y, box.children.z);
+                if (inner) {
+                    if (box.t.w < T_INFINITY)
+                        stack[depth++] = box.children.w;
+                    if (box.t.z < T_INFINITY)
+                        stack[depth++] = box.children.z;
+                    if (box.t.y < T_INFINITY)
+                        stack[depth++] = box.children.y;
+                    node = box.children.x;
+                    if (!(box.t.x < T_INFINITY))
+                        node = depth > 0 ? stack[--depth] : BVH_NO_CHILD;
+                }
+            } while (node < BVH_NO_CHILD);
+
+            if (holds_primitives(node)) {
+                uint k = 0u;
+                do {
+                    intersect_primitive(ray, node, k, hit);
+                } while (++k < leaf_count(node));
+                const bool ended = first_hit_ends && hit.slot != NO_HIT;
+                node = depth > 0 && !ended ? stack[--depth] : BVH_NO_CHILD;
+            }
+        } while (holds_primitives(node) || node < BVH_NO_CHILD);
+#ifdef FX_INSTANCES
+        const bool leaves = node == LEAVE_INSTANCE;
+        const bool enters = changes_space(node) && !leaves;
+        const uint instance = enters ? (node & BVH_FIRST_MASK) + 1u : 1u;
+        const Traversal local_ray = prepare_in(instance, r);
+        if (enters) {
+            stack[depth++] = LEAVE_INSTANCE;
+            ray = local_ray;
+            node = instance_ids(instance).x;
         }
+        if (leaves) {
+            ray = world_ray;
+            node = depth > 0 ? stack[--depth] : BVH_NO_CHILD;
+        }
+#endif
     } while (node != BVH_NO_CHILD);
     return hit;
 }

@@ -2,8 +2,10 @@
 // All are usamplerBuffer of rgba32ui; floats travel as their bits. A buffer that a scene has no use for is not there.
 //
 //   bvh_nodes    BVH_NODE_TEXELS a node: lower x of 4 children, lower y, lower z, upper x, upper y, upper z,
-//                4 child words. A child word is a node's first texel, a leaf, or BVH_NO_CHILD.
-//   triangles    3 a triangle, in leaf order: v0.xyz and object, v1.xyz and material, v2.xyz and light + 1 (0: none)
+//                4 child words. A child word is a node's first texel, a leaf, or BVH_NO_CHILD. The first node is
+//                the world's root, or the root of a top level over trees in world space and instances.
+//   triangles    3 a triangle, in leaf order: v0.xyz and object, v1.xyz and material, v2.xyz and light + 1 (0: none);
+//                in an instance's tree object and material are the instance's, lights count from its first
 //   spheres      2 a sphere: center.xyz and radius; object, material, light + 1
 //   disks        3 a disk: center.xyz and radius; normal.xyz; object, material, light + 1
 //   normals      1 a triangle (FX_SHADING_NORMALS): its three shading normals, octahedral; 1 if it has any
@@ -12,6 +14,10 @@
 //   tangents     1 a triangle (FX_NORMAL_MAPS): its three tangents, octahedral; bit k set where bitangent k is
 //                -cross(normal, tangent)
 //   colors       2 a triangle (FX_VERTEX_COLORS): rgba of v0 and v1, of v2, as halfs
+//   instances    INSTANCE_TEXELS an instance (FX_INSTANCES), each at its INSTANCE_* offset below
+//   prev_instances  3 an instance (FX_MOTION): rows of the previous world_from_object
+//   prev_vertices   PREV_VERTEX_HEADER: first of the triangles that deform and how many; 3 each (FX_DEFORMATION): its
+//                vertices of last frame
 //   materials    MATERIAL_TEXELS a material, each at its MATERIAL_* offset below
 //   lights       LIGHT_TEXELS a light: LIGHT_* kind and flags, place in light_textures + 1 (0: none), pmf, area;
 //                p0.xyz and alias threshold; edge_u.xyz and alias index; edge_v.xyz; radiance.rgb. By kind:
@@ -46,6 +52,7 @@
 #define BVH_TRIANGLES 0x00000000u
 #define BVH_SPHERES 0x20000000u
 #define BVH_DISKS 0x40000000u
+#define BVH_INSTANCES 0x60000000u   // in place of the first primitive, which instance
 #define BVH_COUNT_SHIFT 27          // primitives in the leaf minus one, 2 bits
 #define BVH_FIRST_MASK 0x07ffffffu  // first primitive of its kind, in leaf order
 
@@ -53,6 +60,8 @@
 #define SPHERE_TEXELS 2
 #define DISK_TEXELS 3
 #define UV_TEXELS 2
+#define PREV_INSTANCE_TEXELS 3
+#define PREV_VERTEX_HEADER 1
 #define COLOR_TEXELS 2
 #define LIGHT_TEXELS 5
 #define LIGHT_TEXTURE_TEXELS 8
@@ -61,6 +70,13 @@
 #define LIGHT_NODE_LEAF 0x80000000u
 #define ENVIRONMENT_HEADER_TEXELS 4
 #define TEXTURE_TEXELS 2
+
+// Texels of an instance.
+#define INSTANCE_TEXELS 8
+#define INSTANCE_OBJECT_FROM_WORLD 0  // three rows
+#define INSTANCE_IDS 3                // root of its tree in bvh_nodes; object; material; index + 1 of its first light
+#define INSTANCE_WORLD_FROM_OBJECT 4  // three rows
+#define INSTANCE_SCALE 7              // log2 of its scale; -1 if it mirrors, else 1
 
 // Texels of a material.
 #define MATERIAL_TEXELS (6 + MATERIAL_MAPS * TEXTURE_TEXELS)

@@ -24,6 +24,7 @@ TestScene::TestScene(Scene s)
     , shared{programs_, scene_programs_, look_of(scene),
           static_cast<std::uint32_t>(gpu_scene_->light_count()), true, true}
 {
+    shared.gpu = gpu_scene_.get();
     scene_programs_.follow(gpu_scene_);
 }
 

@@ -1,0 +1,122 @@
+// Morphing and skinning on the CPU.
+#include "server/scene/deform.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace farlight {
+namespace {
+
+/// Takes normals where `m` takes positions, up to a positive factor: the inverse transpose, from
+/// cofactors, which also serve a matrix without inverse.
+glm::mat3 normal_matrix(const glm::mat3& m)
+{
+    const glm::mat3 cofactors(
+        glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+    return glm::dot(m[0], cofactors[0]) < 0 ? -cofactors : cofactors;
+}
+
+glm::vec3 unit_or(const glm::vec3& v, const glm::vec3& fallback)
+{
+    const float length = glm::length(v);
+    return length > 0 ? v / length : fallback;
+}
+
+void morph(const Mesh& mesh, std::span<const float> weights, VertexPose& pose)
+{
+    assert(weights.size() <= mesh.morph_targets.size());
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        if (weights[k] == 0)
+            continue;
+        const MorphTarget& target = mesh.morph_targets[k];
+        for (std::size_t i = 0; i < target.positions.size(); ++i)
+            pose.positions[i] += weights[k] * target.positions[i];
+        if (!pose.normals.empty())
+            for (std::size_t i = 0; i < target.normals.size(); ++i)
+                pose.normals[i] += weights[k] * target.normals[i];
+    }
+}
+
+void transform_vertex(const glm::mat4& matrix, std::size_t i, VertexPose& pose)
+{
+    pose.positions[i] = glm::vec3(matrix * glm::vec4(pose.positions[i], 1));
+    const glm::mat3 linear(matrix);
+    if (!pose.normals.empty())
+        pose.normals[i] = unit_or(normal_matrix(linear) * pose.normals[i], {0, 0, 1});
+    if (!pose.tangents.empty())
+        pose.tangents[i] =
+            glm::vec4(unit_or(linear * glm::vec3(pose.tangents[i]), {1, 0, 0}), pose.tangents[i].w);
+}
+
+const MeshInstance* instance_of(const Object& object)
+{
+    return std::get_if<MeshInstance>(&object.shape);
+}
+
+}  // namespace
+
+bool has_pose(const Scene& scene, const Object& object)
+{
+    const MeshInstance* instance = instance_of(object);
+    return instance != nullptr
+        && (instance->skin != kNone || !scene.meshes[instance->mesh].morph_targets.empty());
+}
+
+bool changes_shape(const Scene& scene, std::uint32_t object, const std::vector<bool>& moving)
+{
+    const MeshInstance* instance = instance_of(scene.objects[object]);
+    if (instance == nullptr)
+        return false;
+    const auto moves = [&](std::uint32_t joint) { return moving[joint]; };
+    if (instance->skin != kNone) {
+        const auto& joints = scene.animation.skins[instance->skin].joints;
+        if (std::any_of(joints.begin(), joints.end(), moves))
+            return true;
+    }
+    return std::any_of(
+        scene.animation.tracks.begin(), scene.animation.tracks.end(), [&](const Track& track) {
+            return track.target == Track::Target::kMorphWeights && track.index == object;
+        });
+}
+
+std::vector<glm::mat4> skin_matrices(const Skin& skin, std::span<const glm::dmat4> world_from_node)
+{
+    std::vector<glm::mat4> matrices;
+    for (std::size_t i = 0; i < skin.joints.size(); ++i)
+        matrices.emplace_back(world_from_node[skin.joints[i]] * skin.joint_from_mesh[i]);
+    return matrices;
+}
+
+VertexPose pose_vertices(const Mesh& mesh, std::span<const float> weights,
+    std::span<const glm::mat4> joints, const glm::dmat4& world_from_mesh)
+{
+    VertexPose pose{mesh.positions, mesh.normals, mesh.tangents};
+    morph(mesh, weights, pose);
+    const glm::mat4 rigid(world_from_mesh);
+    for (std::size_t i = 0; i < pose.positions.size(); ++i) {
+        if (joints.empty() || mesh.joints.empty()) {
+            transform_vertex(rigid, i, pose);
+            continue;
+        }
+        glm::mat4 blend(0);
+        for (int k = 0; k < 4; ++k)
+            blend += mesh.weights[i][k] * joints[mesh.joints[i][k]];
+        transform_vertex(blend, i, pose);
+    }
+    return pose;
+}
+
+VertexPose pose_object(const Scene& scene, std::uint32_t object, double time,
+    std::span<const glm::dmat4> world_from_node)
+{
+    const auto& instance = std::get<MeshInstance>(scene.objects[object].shape);
+    std::vector<glm::mat4> joints;
+    if (instance.skin != kNone)
+        joints = skin_matrices(scene.animation.skins[instance.skin], world_from_node);
+    const std::vector<float> weights =
+        morph_weights_at(scene.animation, object, instance.morph_weights, time);
+    return pose_vertices(scene.meshes[instance.mesh], weights, joints,
+        carried(scene.objects[object].node, world_from_node, instance.world_from_object));
+}
+
+}  // namespace farlight

@@ -1,0 +1,210 @@
+// Four-wide from the top: a range of entries is halved, its larger part again, until it is in four.
+#include "server/scene/top_level.h"
+
+#include "shaders/shared/scene_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+
+namespace farlight {
+namespace {
+
+using Entries = std::span<TopLevelEntry>;
+
+constexpr int kBins = 16;
+
+/// Entries that may wait on the stack beyond what a tree of medians needs: room for the heuristic.
+constexpr int kSlack = 6;
+
+const PrimitiveBounds kEmpty{glm::vec3(std::numeric_limits<float>::infinity()),
+    glm::vec3(-std::numeric_limits<float>::infinity())};
+
+PrimitiveBounds united(const PrimitiveBounds& a, const PrimitiveBounds& b)
+{
+    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
+}
+
+PrimitiveBounds bounds_of(Entries entries)
+{
+    PrimitiveBounds bounds = kEmpty;
+    for (const TopLevelEntry& entry : entries)
+        bounds = united(bounds, entry.bounds);
+    return bounds;
+}
+
+/// Half the surface; in double, for the squares of 1e30 are no floats. 0 for nothing.
+double half_area(const PrimitiveBounds& b)
+{
+    const glm::dvec3 d = glm::max(glm::dvec3(b.upper) - glm::dvec3(b.lower), glm::dvec3(0));
+    return d.x * d.y + d.y * d.z + d.z * d.x;
+}
+
+double center(const TopLevelEntry& entry, int axis)
+{
+    return 0.5 * (static_cast<double>(entry.bounds.lower[axis]) + entry.bounds.upper[axis]);
+}
+
+struct Span {
+    int axis = 0;
+    double lower = 0;
+    double upper = 0;
+};
+
+/// The axis along which the centers spread most.
+Span widest_span(Entries entries)
+{
+    Span widest;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [low, high] = std::minmax_element(entries.begin(), entries.end(),
+            [&](const auto& a, const auto& b) { return center(a, axis) < center(b, axis); });
+        const Span span{axis, center(*low, axis), center(*high, axis)};
+        if (axis == 0 || span.upper - span.lower > widest.upper - widest.lower)
+            widest = span;
+    }
+    return widest;
+}
+
+/// Size of the first part after halving by count.
+std::size_t split_at_median(Entries entries)
+{
+    const int axis = widest_span(entries).axis;
+    const std::size_t half = (entries.size() + 1) / 2;
+    std::nth_element(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(half),
+        entries.end(),
+        [&](const auto& a, const auto& b) { return center(a, axis) < center(b, axis); });
+    return half;
+}
+
+struct Bin {
+    PrimitiveBounds bounds = kEmpty;
+    std::size_t count = 0;
+
+    void add(const Bin& other) { bounds = united(bounds, other.bounds), count += other.count; }
+    double cost() const { return static_cast<double>(count) * half_area(bounds); }
+};
+
+/// Size of the first part after splitting where the heuristic over bins is least.
+/// Source: Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
+std::size_t split_by_area(Entries entries)
+{
+    const Span span = widest_span(entries);
+    if (!(span.upper > span.lower))
+        return split_at_median(entries);
+    const auto bin_of = [&](const TopLevelEntry& entry) {
+        const double at = (center(entry, span.axis) - span.lower) / (span.upper - span.lower);
+        return static_cast<std::size_t>(std::min(static_cast<int>(at * kBins), kBins - 1));
+    };
+    std::array<Bin, kBins> bins;
+    for (const TopLevelEntry& entry : entries)
+        bins[bin_of(entry)].add({entry.bounds, 1});
+    std::array<double, kBins> cost_right{};
+    Bin right;
+    for (std::size_t i = kBins - 1; i > 0; --i) {
+        right.add(bins[i]);
+        cost_right[i] = right.cost();
+    }
+    Bin left;
+    std::size_t best = 1;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < kBins; ++i) {
+        left.add(bins[i - 1]);
+        if (const double cost = left.cost() + cost_right[i]; cost < least)
+            least = cost, best = i;
+    }
+    const auto middle = std::partition(entries.begin(), entries.end(),
+        [&](const TopLevelEntry& entry) { return bin_of(entry) < best; });
+    const auto size = static_cast<std::size_t>(middle - entries.begin());
+    return size == 0 || size == entries.size() ? split_at_median(entries) : size;
+}
+
+/// Stack that a tree of medians over so many entries needs: three wait at each level.
+int balanced_stack(std::size_t entries)
+{
+    int stack = 0;
+    for (std::size_t reach = 1; reach < entries; reach *= kBvhWidth)
+        stack += kBvhWidth - 1;
+    return stack;
+}
+
+struct Parts {
+    std::array<Entries, kBvhWidth> entries;
+    std::size_t count = 0;
+};
+
+/// In up to four parts, always splitting the one with the most to gain.
+template <typename Split> Parts split(Entries entries, const Split& split_once, bool by_count)
+{
+    Parts parts{{entries}, 1};
+    const auto gain = [&](Entries part) {
+        const double count = part.size() < 2 ? 0 : static_cast<double>(part.size());
+        return by_count ? count : count * (half_area(bounds_of(part)) + 1e-300);
+    };
+    while (parts.count < kBvhWidth) {
+        auto* largest = std::max_element(parts.entries.begin(),
+            parts.entries.begin() + static_cast<std::ptrdiff_t>(parts.count),
+            [&](Entries a, Entries b) { return gain(a) < gain(b); });
+        if (largest->size() < 2)
+            break;
+        const std::size_t first = split_once(*largest);
+        parts.entries[parts.count++] = largest->subspan(first);
+        *largest = largest->first(first);
+    }
+    return parts;
+}
+
+class Builder {
+public:
+    explicit Builder(std::span<glm::uvec4> nodes) : nodes_(nodes) { }
+
+    /// `stack`: what the subtree may need. Returns its first texel.
+    unsigned build(Entries entries, int stack)
+    {
+        Parts parts = split(entries, split_by_area, false);
+        const auto fits = [&](Entries part) {
+            return balanced_stack(part.size()) <= stack - static_cast<int>(parts.count) + 1;
+        };
+        if (!std::all_of(parts.entries.begin(),
+                parts.entries.begin() + static_cast<std::ptrdiff_t>(parts.count), fits))
+            parts = split(entries, split_at_median, true);
+        const unsigned at = used_;
+        used_ += BVH_NODE_TEXELS;
+        for (std::size_t i = 0; i < kBvhWidth; ++i) {
+            const bool there = i < parts.count && !parts.entries[i].empty();
+            set_child_bounds(nodes_, at, i, there ? bounds_of(parts.entries[i]) : kNowhereBounds);
+            nodes_[at + 6][static_cast<int>(i)] = !there ? BVH_NO_CHILD
+                : parts.entries[i].size() == 1
+                ? parts.entries[i].front().word
+                : build(parts.entries[i], stack - static_cast<int>(parts.count) + 1);
+        }
+        return at;
+    }
+
+private:
+    std::span<glm::uvec4> nodes_;
+    unsigned used_ = 0;
+};
+
+}  // namespace
+
+std::size_t top_level_texels(std::size_t entries)
+{
+    // Every node but the root has two children or more, so there are fewer than there are entries.
+    return std::max<std::size_t>(entries, 1) * BVH_NODE_TEXELS;
+}
+
+int top_level_stack(std::size_t entries)
+{
+    // Up to four fit one node, whatever splits them.
+    return entries <= kBvhWidth ? kBvhWidth - 1 : balanced_stack(entries) + kSlack;
+}
+
+void build_top_level(std::span<TopLevelEntry> entries, std::span<glm::uvec4> nodes)
+{
+    assert(nodes.size() >= top_level_texels(entries.size()));
+    std::fill(nodes.begin(), nodes.end(), glm::uvec4(BVH_NO_CHILD));
+    Builder(nodes).build(entries, top_level_stack(entries.size()));
+}
+
+}  // namespace farlight

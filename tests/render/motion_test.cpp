@@ -1,0 +1,294 @@
+// Moving things on the device: an instance is what the same thing is flattened, it is not met again
+// by rays that leave it, and its motion is that of a double-precision hand.
+#include "server/render/camera.h"
+#include "tests/support/gl_test.h"
+#include "tests/support/meshes.h"
+#include "tests/support/moving_scenes.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace farlight {
+namespace {
+
+constexpr Extent kExtent{97, 61};
+
+Image view_of(View& view, const Scene& scene, DebugView which, double time)
+{
+    RenderSettings settings;
+    settings.view = which;
+    RenderRequest request = linear_request(scene, kExtent, settings);
+    request.time = time;
+    return view.render(request).image;
+}
+
+/// A mesh twice, one of each other shape, all placed askew; the second mesh and the sphere are
+/// mirrored, the disk and the second mesh squeezed.
+Scene things_of_all_kinds()
+{
+    Mesh mesh = bumpy_sphere(40, 20);
+    mesh.normals = mesh.positions;
+    for (glm::vec3& n : mesh.normals)
+        n = glm::normalize(n);
+    Scene scene = scene_of(std::move(mesh));
+    scene.materials[0].albedo = glm::vec3(1);
+    scene.objects.push_back({"second", 0, MeshInstance{}});
+    scene.objects.push_back({"ball", 0, Sphere{{0.2, 0.1, 0}, 0.7}});
+    scene.objects.push_back({"plate", 0, Quad{{-0.7, -0.5, 0}, {1.3, 0.1, 0}, {0, 1, 0.2}}});
+    scene.objects.push_back(
+        {"coin", 0, Disk{{0, 0, 0.1}, glm::normalize(glm::dvec3(1, 2, 4)), 0.7}});
+    scene.background = glm::vec3(1);
+    scene.camera = {{1, 2, 9}, {0, 0, 0}, {0, 1, 0}, 45};
+    return scene;
+}
+
+glm::dmat4 placed(std::size_t i, double scale, const glm::dvec3& at)
+{
+    static const glm::dvec3 kWhere[] = {
+        {-2.4, 0.3, 0}, {0, 1.3, -1}, {2.2, 0.4, 0}, {-0.8, -1.6, 1}, {1.3, -1.5, 0.5}};
+    static const glm::dvec3 kScale[] = {
+        {0.8, 0.8, 0.8}, {-1.2, 0.7, 0.9}, {-1, 1, 1}, {1, 1.3, 0.8}, {1.2, 0.6, 1}};
+    glm::dmat4 m = glm::translate(glm::dmat4(1), scale * (kWhere[i] + at));
+    m = glm::rotate(m, 0.7 + 0.4 * static_cast<double>(i), glm::normalize(glm::dvec3(1, 2, 0.5)));
+    return glm::scale(m, scale * kScale[i]);
+}
+
+struct Placement {
+    const char* name;
+    double scale;
+    glm::dvec3 at;  ///< In units of the scale.
+
+    friend void PrintTo(const Placement& placement, std::ostream* out) { *out << placement.name; }
+};
+
+class InstanceTest : public GlTest, public testing::WithParamInterface<Placement> {
+protected:
+    static Scene scene(bool moving)
+    {
+        const auto& [name, scale, at] = GetParam();
+        Scene scene = things_of_all_kinds();
+        hang_on_nodes(
+            scene, [&](std::size_t i) { return placed(i, scale, at); }, moving);
+        scene.camera.position = scale * (scene.camera.position + at);
+        scene.camera.target = scale * (scene.camera.target + at);
+        return scene;
+    }
+};
+
+/// At time 1 what moved stands where the same thing at rest does.
+TEST_P(InstanceTest, LooksLikeTheSameThingAtRest)
+{
+    const TestScene resting(scene(false));
+    const TestScene moving(scene(true));
+    ASSERT_TRUE(moving.inputs.calls_for("FX_INSTANCES"));
+    const double size =
+        scene_bounds(resting.scene).radius() + glm::length(GetParam().at * GetParam().scale);
+    for (const DebugView which :
+        {DebugView::kPosition, DebugView::kShadingNormal, DebugView::kObjectId}) {
+        View rest_view(resting.shared);
+        View moving_view(moving.shared);
+        const Image a = view_of(rest_view, resting.scene, which, 0);
+        const Image b = view_of(moving_view, moving.scene, which, 1);
+        // An instance's normals are interpolated before they are transformed: squeezed, another
+        // curve between the same corners.
+        const double tolerance = which == DebugView::kPosition ? 1e-6 * size
+            : which == DebugView::kObjectId                    ? 0
+                                                               : 0.02;
+        int different = 0;
+        for (int y = 0; y < kExtent.height; ++y)
+            for (int x = 0; x < kExtent.width; ++x)
+                different += glm::distance(pixel(a, x, y), pixel(b, x, y)) <= tolerance ? 0 : 1;
+        // An outline may fall on either side of a pixel's middle.
+        EXPECT_LE(different, 5) << static_cast<int>(which);
+    }
+}
+
+/// White things under a white sky vanish: a pixel is below 1 only where a ray was caught on the
+/// surface it left.
+TEST_P(InstanceTest, IsNotMetAgainByRaysThatLeaveIt)
+{
+    const TestScene on_device(scene(true));
+    RenderSettings s;
+    s.denoiser = Denoiser::kOff;
+    s.max_depth = 64;
+    s.roulette_depth = 64;
+    s.samples_per_pixel = 4;
+    View view(on_device.shared);
+    RenderRequest request = linear_request(on_device.scene, kExtent, s);
+    request.time = 1;
+    const Image image = view.render(request).image;
+    for (int y = 0; y < kExtent.height; ++y)
+        for (int x = 0; x < kExtent.width; ++x)
+            ASSERT_NEAR(pixel(image, x, y).x, 1, 1e-4) << x << "," << y;
+}
+
+INSTANTIATE_TEST_SUITE_P(ScalesAndPlaces, InstanceTest,
+    testing::Values(Placement{"AtTheOrigin", 1, {0, 0, 0}}, Placement{"Tiny", 1e-3, {0, 1.5, 4}},
+        Placement{"Huge", 1e4, {0, 0, 0}}, Placement{"FarAway", 1, {1e3, 500, -250}}),
+    [](const auto& test) { return test.param.name; });
+
+/// Pixel coordinates and view depth of a world position, in double.
+glm::dvec3 project(const CameraPose& pose, const glm::dvec3& position)
+{
+    const CameraBasis basis = camera_basis(pose);
+    const double half_height = std::tan(glm::radians(pose.vertical_fov_degrees) / 2);
+    const double half_width = half_height * kExtent.width / kExtent.height;
+    const glm::dvec3 v = position - pose.position;
+    const double depth = glm::dot(v, basis.forward);
+    const double x = glm::dot(v, basis.right) / (depth * half_width);
+    const double y = glm::dot(v, basis.up) / (depth * half_height);
+    return {(x + 1) / 2 * kExtent.width, (1 - y) / 2 * kExtent.height, depth};
+}
+
+/// Where the point of object `object` that is at `now` at time `time` is at `prev_time`.
+using Past = std::function<glm::dvec3(std::size_t object, const glm::dvec3& now)>;
+
+/// Every pixel's motion between two times, the camera moving too, against `past`.
+void expect_motion(const Scene& source, double prev_time, double time,
+    const std::function<Past(const Scene&)>& past_in)
+{
+    const TestScene on_device(source);
+    const Scene& scene = on_device.scene;
+    const Past past = past_in(scene);
+    CameraPose before = scene.camera;
+    before.position += glm::dvec3(0.05, -0.03, 0.1);
+    const auto render = [&](View& view, DebugView which, const CameraPose& camera, double at) {
+        RenderSettings settings;
+        settings.view = which;
+        RenderRequest request = linear_request(scene, kExtent, settings);
+        request.camera = camera;
+        request.time = at;
+        return view.render(request).image;
+    };
+    View view(on_device.shared);
+    const Image positions = render(view, DebugView::kPosition, scene.camera, time);
+    const Image objects = render(view, DebugView::kObjectId, scene.camera, time);
+    View moving(on_device.shared);
+    render(moving, DebugView::kMotion, before, prev_time);
+    const Image motion = render(moving, DebugView::kMotion, scene.camera, time);
+    int met = 0;
+    for (int y = 0; y < kExtent.height; ++y)
+        for (int x = 0; x < kExtent.width; ++x) {
+            const glm::dvec3 now(pixel(positions, x, y));
+            if (now == glm::dvec3(0))
+                continue;
+            ++met;
+            const auto object = static_cast<std::size_t>(pixel(objects, x, y).x);
+            const glm::dvec3 expected =
+                project(before, past(object, now)) - project(scene.camera, now);
+            ASSERT_NEAR(pixel(motion, x, y).x, expected.x, 1e-3) << x << "," << y;
+            ASSERT_NEAR(pixel(motion, x, y).y, expected.y, 1e-3) << x << "," << y;
+            ASSERT_NEAR(pixel(motion, x, y).z, expected.z, 1e-5 * scene_bounds(scene).radius())
+                << x << "," << y;
+        }
+    EXPECT_GT(met, kExtent.width * kExtent.height / 20);
+}
+
+TEST_F(GlTest, MotionOfRigidThingsIsThatOfTheirTransforms)
+{
+    Scene scene = things_of_all_kinds();
+    hang_on_nodes(
+        scene, [](std::size_t i) { return placed(i, 1, {}); }, true);
+    expect_motion(scene, 0.2, 0.6, [](const Scene& posed) -> Past {
+        const auto before = pose_nodes(posed.animation, 0.2);
+        const auto now = pose_nodes(posed.animation, 0.6);
+        return [=, &posed](std::size_t object, const glm::dvec3& p) {
+            const std::uint32_t node = posed.objects[object].node;
+            return glm::dvec3(before[node] * glm::inverse(now[node]) * glm::dvec4(p, 1));
+        };
+    });
+}
+
+/// The same point of a mesh in two poses: that of the nearest triangle.
+Past by_nearest_triangle(const Mesh& mesh, const std::function<glm::dvec3(std::size_t)>& now,
+    const std::function<glm::dvec3(std::size_t)>& before)
+{
+    return [=, triangles = mesh.triangles](std::size_t, const glm::dvec3& p) {
+        double nearest = 1e300;
+        glm::dvec3 past(0);
+        for (const glm::uvec3& t : triangles) {
+            const glm::dvec3 a = now(t.x);
+            const glm::dvec3 u = now(t.y) - a;
+            const glm::dvec3 v = now(t.z) - a;
+            const glm::dvec3 n = glm::cross(u, v);
+            const double area2 = glm::dot(n, n);
+            const double s = glm::dot(glm::cross(p - a, v), n) / area2;
+            const double r = glm::dot(glm::cross(u, p - a), n) / area2;
+            // Distance from the plane, and how far outside the edges.
+            const double outside = std::max({0.0, -s, -r, s + r - 1}) * std::sqrt(std::sqrt(area2));
+            const double distance = std::abs(glm::dot(p - a, n)) / std::sqrt(area2) + outside;
+            if (distance < nearest) {
+                nearest = distance;
+                past = (1 - s - r) * before(t.x) + s * before(t.y) + r * before(t.z);
+            }
+        }
+        EXPECT_LT(nearest, 1e-5);
+        return past;
+    };
+}
+
+TEST_F(GlTest, MotionOfASkinIsThatOfItsJoints)
+{
+    expect_motion(bending_bar(24, 16), 0.3, 0.7, [](const Scene& scene) {
+        const Mesh mesh = scene.meshes[0];
+        const auto at = [mesh](double time) {
+            return [=](std::size_t i) {
+                const glm::dvec3 p(mesh.positions[i]);
+                const glm::dvec3 turned(std::cos(time) * p.x - std::sin(time) * (p.y - 1),
+                    std::sin(time) * p.x + std::cos(time) * (p.y - 1) + 1, p.z);
+                return static_cast<double>(mesh.weights[i].x) * p
+                    + static_cast<double>(mesh.weights[i].y) * turned;
+            };
+        };
+        return by_nearest_triangle(mesh, at(0.7), at(0.3));
+    });
+}
+
+TEST_F(GlTest, MotionOfAMorphIsThatOfItsTargetsAndItsCarrier)
+{
+    expect_motion(swelling_sphere(24, 16), 0.25, 0.5, [](const Scene& scene) {
+        const Mesh mesh = scene.meshes[0];
+        const auto at = [&scene, mesh](double time) {
+            const glm::dmat4 m = pose_nodes(scene.animation, time)[0];
+            return [=](std::size_t i) {
+                return glm::dvec3(m
+                    * glm::dvec4(glm::dvec3(mesh.positions[i])
+                            + time * glm::dvec3(mesh.morph_targets[0].positions[i]),
+                        1));
+            };
+        };
+        return by_nearest_triangle(mesh, at(0.5), at(0.25));
+    });
+}
+
+/// While time stands still, what could move has exactly no motion, and pictures may be averaged.
+TEST_F(GlTest, PausedThingsHaveExactlyNoMotion)
+{
+    Scene things = things_of_all_kinds();
+    hang_on_nodes(
+        things, [](std::size_t i) { return placed(i, 1, {}); }, true);
+    for (Scene source : {bending_bar(12, 8), swelling_sphere(12, 8), things}) {
+        const TestScene on_device(std::move(source));
+        View view(on_device.shared);
+        view_of(view, on_device.scene, DebugView::kMotion, 0.4);
+        const Image motion = view_of(view, on_device.scene, DebugView::kMotion, 0.4);
+        for (int y = 0; y < kExtent.height; ++y)
+            for (int x = 0; x < kExtent.width; ++x)
+                ASSERT_EQ(pixel(motion, x, y), glm::vec3(0)) << x << "," << y;
+    }
+}
+
+/// A frame depends on its time and the last frame's, not on what was drawn before.
+TEST_F(GlTest, PosesDependOnTimeAlone)
+{
+    const TestScene on_device(bending_bar(12, 8));
+    View first(on_device.shared);
+    const Image fresh = view_of(first, on_device.scene, DebugView::kPosition, 0.5);
+    View second(on_device.shared);
+    for (const double time : {3.0, 0.0, 0.9})
+        view_of(second, on_device.scene, DebugView::kPosition, time);
+    const Image again = view_of(second, on_device.scene, DebugView::kPosition, 0.5);
+    EXPECT_EQ(fresh.bytes, again.bytes);
+}
+
+}  // namespace
+}  // namespace farlight
