@@ -35,6 +35,11 @@ std::size_t memory_for_views(const RendererOptions& options, bool software)
     return software ? physical / 2 : std::size_t{8} << 30;
 }
 
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Longest a frame may be [path segments]: about a second of a fast GPU, minutes of llvmpipe. One
 /// client's frame is drawn in one go, so this also bounds how long the others wait, and keeps clear
 /// of drivers' watchdogs.
@@ -202,10 +207,12 @@ bool Renderer::State::advance(Client& client, const SharedScene& shared)
             finish(client);
         if (is_over(client))
             return busy;
-        const std::optional<RenderRequest> request = client.source->next_request();
+        std::optional<RenderRequest> request = client.source->next_request();
         if (!request)
             return busy;
         busy = true;
+        if (request->clock_start)
+            request->time += seconds_since(*request->clock_start);
         std::string problem = failure_message();
         if (problem.empty())
             problem = too_much_work(*request);

@@ -9,6 +9,7 @@
 #include "server/render/settings.h"
 #include "server/scene/scene.h"
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -23,7 +24,9 @@ struct RenderRequest {
     RenderSettings settings;
     Extent extent;
     PixelFormat format = PixelFormat::kRgb8;
-    double time = 0;  ///< Of a scene that moves [s]; what moved since the last frame follows.
+    double time = 0;  ///< Of a scene that moves [s].
+    /// Present: `time` was then and runs on; the frame shows the moment at which it is begun.
+    std::optional<std::chrono::steady_clock::time_point> clock_start;
     bool reset_history =
         false;  ///< A cut: forget history and accumulated samples, restart the random numbers.
     bool refine =
@@ -45,6 +48,7 @@ struct RenderedFrame {
         0;  ///< Samples a pixel since the camera or a setting last changed.
     std::uint32_t nonfinite_count =
         0;  ///< Non-finite values met before anything cleaned them; must be 0.
+    bool moves = false;  ///< The scene follows time: other times may look different.
     bool history_reset = false;  ///< This frame started without history.
     bool converged = false;  ///< accumulated_samples reached settings.still_samples.
     EffectMask effects;  ///< Held by the programs that drew it.

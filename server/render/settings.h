@@ -70,6 +70,10 @@ struct RenderSettings {
     bool antialiasing = true;
     std::uint32_t seed = 0;
 
+    bool play = true;
+    float time = 0;
+    float time_step = 1.0F / 30;
+
     int history_max = 32;
     float svgf_alpha = 0.2F;
     float svgf_moments_alpha = 0.2F;
@@ -111,6 +115,11 @@ struct RenderSettings {
             "where samples are averaged, spread them over the pixel's area");
         visit(s.seed, "seed", IntRange{0, std::numeric_limits<std::uint32_t>::max()},
             "same seed, same picture");
+        visit(s.play, "play", IntRange{0, 1}, "time passes in a scene that moves");
+        visit(
+            s.time, "time", RealRange{0, 3600}, "[s] of a scene that moves: setting it goes there");
+        visit(s.time_step, "time_step", RealRange{0.0001, 10},
+            "[s] that pass from frame to frame in lockstep; else it is the clock that runs");
         visit(s.history_max, "history_max", IntRange{1, 4096},
             "[frames] longest history a pixel remembers");
         visit(s.svgf_alpha, "svgf_alpha", RealRange{0.001, 1},

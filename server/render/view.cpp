@@ -137,6 +137,7 @@ void View::begin(const RenderRequest& request)
     readback_.begin(graph_.texture(result));
 
     frame_ = RenderedFrame{};
+    frame_.moves = moves();
     frame_.history_reset = !has_history_;
     frame_.effects = variant.mask;
     const int averaged = mean_frames_ > 0 ? mean_frames_ : still_frames_;

@@ -26,6 +26,8 @@ DrawPlan::DrawPlan(
     : mode_(mode)
     , wishes_(first)
     , format_(format)
+    , time_(static_cast<double>(first.settings.time))
+    , clock_start_(now)
     , changed_(now)
 {
     wishes_.format = pixel_format_for(format);
@@ -42,12 +44,17 @@ bool DrawPlan::move_camera(const CameraPose& pose, std::uint32_t sequence, bool 
     if (mode_ == protocol::Mode::kLockstep) {
         queue_.push_back(draw_of_wishes(now));
         wishes_.reset_history = false;
+        if (wishes_.settings.play)
+            time_ += static_cast<double>(wishes_.settings.time_step);
     }
     return true;
 }
 
 void DrawPlan::set_settings(const RenderSettings& settings, Time now)
 {
+    const bool jumps = settings.time != wishes_.settings.time;
+    time_ = jumps ? static_cast<double>(settings.time) : time_at(now);
+    clock_start_ = now;
     wishes_.settings = settings;
     change(now);
 }
@@ -84,7 +91,7 @@ std::optional<Draw> DrawPlan::next()
         return std::nullopt;
     ++unchanged_frames_;
     Draw draw = draw_of_wishes(std::nullopt);
-    draw.request.refine = unchanged_frames_ >= kFramesUntilRest;
+    draw.request.refine = unchanged_frames_ >= kFramesUntilRest && !plays();
     return draw;
 }
 
@@ -114,6 +121,13 @@ bool DrawPlan::repeats_final(const Draw& draw) const
     return mode_ == protocol::Mode::kInteractive && draw.version == final_version_;
 }
 
+double DrawPlan::time_at(Time now) const
+{
+    if (mode_ == protocol::Mode::kLockstep || !wishes_.settings.play)
+        return time_;
+    return time_ + std::chrono::duration<double>(now - clock_start_).count();
+}
+
 void DrawPlan::change(Time now)
 {
     ++version_;
@@ -122,7 +136,11 @@ void DrawPlan::change(Time now)
 
 Draw DrawPlan::draw_of_wishes(std::optional<Time> asked) const
 {
-    return {wishes_, format_, camera_sequence_, session_epoch_, version_, asked};
+    Draw draw{wishes_, format_, camera_sequence_, session_epoch_, version_, asked};
+    draw.request.time = time_;
+    if (mode_ == protocol::Mode::kInteractive && wishes_.settings.play)
+        draw.request.clock_start = clock_start_;
+    return draw;
 }
 
 }  // namespace farlight

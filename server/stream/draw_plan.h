@@ -2,7 +2,8 @@
 //
 // Interactive: the newest camera wins; a resting picture is drawn again and again, refined, until
 // the renderer calls it converged, then nothing until something changes. Lockstep: one frame for
-// each camera message, in order, none left out.
+// each camera message, in order, none left out. A scene that moves follows the clock, in lockstep
+// the settings' step a frame, so that a recording can be repeated.
 #pragma once
 
 #include "protocol/messages.h"
@@ -56,6 +57,9 @@ public:
     void set_extent(Extent extent, Time now);
     void set_format(protocol::Format format, Time now);
 
+    /// Whether the scene follows time, as the last frame knew: while it plays it never rests.
+    void scene_moves(bool moves) { moves_ = moves; }
+
     /// The next frame worth drawing, or nothing. Each call counts as a frame drawn.
     std::optional<Draw> next();
     /// Interactive: what should be drawn in place of `stale`, planned but not begun, if anything
@@ -71,6 +75,8 @@ public:
     bool repeats_final(const Draw& draw) const;
 
 private:
+    bool plays() const { return moves_ && wishes_.settings.play; }
+    double time_at(Time now) const;
     void change(Time now);
     Draw draw_of_wishes(std::optional<Time> asked) const;
 
@@ -79,6 +85,10 @@ private:
     protocol::Format format_;
     std::uint32_t camera_sequence_ = 0;
     std::uint32_t session_epoch_ = 1;
+
+    double time_ = 0;  ///< Of the scene [s]: next frame's in lockstep, else at clock_start_.
+    Time clock_start_;
+    bool moves_ = false;
 
     std::uint64_t version_ = 1;  ///< Counts changes.
     std::uint64_t planned_version_ = 0;

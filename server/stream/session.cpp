@@ -231,6 +231,7 @@ void Session::drawn(RenderedFrame frame, Time begun)
         return;
     if (!frame.error.empty())
         return renderer_failed(frame.error);
+    plan_->scene_moves(frame.moves);
     if (plan_->repeats_final(draw)) {
         drop_frame("repeats_final");
         return plan_drawing();

@@ -144,5 +144,62 @@ TEST(RefuseExtent, AcceptsWhatTheDeviceAndMemoryAllow)
         "size is 16384x8192, expected 1x1 to 16384x16384 and at most 33177600 pixels");
 }
 
+RenderSettings settings_with(bool play, float time)
+{
+    RenderSettings settings;
+    settings.play = play;
+    settings.time = time;
+    return settings;
+}
+
+TEST(DrawPlan, AMovingSceneNeverRestsWhileItPlays)
+{
+    DrawPlan plan = make_plan(Mode::kInteractive);
+    plan.scene_moves(true);
+    for (int i = 0; i < 10; ++i) {
+        const auto draw = plan.next();
+        ASSERT_TRUE(draw.has_value());
+        EXPECT_FALSE(draw->request.refine);
+        EXPECT_EQ(draw->request.clock_start, kStart);
+    }
+    plan.set_settings(settings_with(false, 0), kStart + 2s);
+    plan.next();
+    plan.next();
+    const Draw paused = *plan.next();
+    EXPECT_TRUE(paused.request.refine);
+    EXPECT_DOUBLE_EQ(paused.request.time, 2);
+    EXPECT_FALSE(paused.request.clock_start.has_value());
+}
+
+TEST(DrawPlan, TimeGoesOnWhereItStoppedAndJumpsWhereItIsSet)
+{
+    DrawPlan plan = make_plan(Mode::kInteractive);
+    plan.set_settings(settings_with(false, 0), kStart + 3s);
+    plan.set_settings(settings_with(true, 0), kStart + 10s);
+    EXPECT_DOUBLE_EQ(plan.next()->request.time, 3);
+    EXPECT_EQ(plan.next()->request.clock_start, kStart + 10s);
+    plan.set_settings(settings_with(true, 0.5F), kStart + 11s);
+    EXPECT_DOUBLE_EQ(plan.next()->request.time, 0.5);
+}
+
+TEST(DrawPlan, LockstepAdvancesByTheStepAndNotByTheClock)
+{
+    DrawPlan plan = make_plan(Mode::kLockstep);
+    RenderSettings settings = settings_with(true, 1);
+    settings.time_step = 0.25F;
+    plan.set_settings(settings, kStart);
+    for (int i = 0; i < 3; ++i)
+        plan.move_camera(pose_at(i), static_cast<std::uint32_t>(i + 1), false, kStart + i * 7s);
+    settings.play = false;
+    plan.set_settings(settings, kStart + 60s);
+    plan.move_camera(pose_at(4), 4, false, kStart + 61s);
+    plan.move_camera(pose_at(5), 5, false, kStart + 99s);
+    for (const double expected : {1.0, 1.25, 1.5, 1.75, 1.75}) {
+        const Draw draw = *plan.next();
+        EXPECT_DOUBLE_EQ(draw.request.time, expected);
+        EXPECT_FALSE(draw.request.clock_start.has_value());
+    }
+}
+
 }  // namespace
 }  // namespace farlight
