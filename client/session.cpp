@@ -70,17 +70,37 @@ Frame Session::draw(const Pose& pose, bool cut)
     return frame;
 }
 
+template <typename Message, typename Accept> Message Session::wait_for(const Accept& accept)
+{
+    while (true) {
+        auto received = next();
+        if (auto* frame = std::get_if<Frame>(&received)) {
+            acknowledge(*frame);  // interactive: pictures go on
+            continue;
+        }
+        auto* message = std::get_if<Message>(&std::get<ServerMessage>(received));
+        if (message != nullptr && accept(*message))
+            return std::move(*message);
+    }
+}
+
 void Session::set(const std::string& key, const nlohmann::json& value)
 {
     connection_.send(Set{.key = key, .value = value});
-    while (true) {
-        const auto received = next();
-        const auto* message = std::get_if<ServerMessage>(&received);
-        if (message == nullptr)
-            throw SessionError("found a frame, expected the new state");
-        if (std::holds_alternative<State>(*message))
-            return;
-    }
+    wait_for<State>([](const State&) { return true; });
+}
+
+SceneChanged Session::edit(const nlohmann::json& merge_patch, bool reset)
+{
+    const std::uint32_t id = ++last_edit_;
+    connection_.send(Edit{.id = id, .patch = merge_patch, .reset = reset});
+    return wait_for<SceneChanged>([id](const SceneChanged& changed) { return changed.edit == id; });
+}
+
+Inspection Session::inspect()
+{
+    connection_.send(Inspect{});
+    return wait_for<Inspection>([](const Inspection&) { return true; });
 }
 
 }  // namespace farlight::client

@@ -46,15 +46,23 @@ public:
     Frame draw(const protocol::Pose& pose, bool cut = false);
     /// Changes a setting and waits for the server's word. Throws RefusedError.
     void set(const std::string& key, const nlohmann::json& value);
+    /// Changes the scene and waits until frames show it. Throws RefusedError.
+    protocol::SceneChanged edit(const nlohmann::json& merge_patch, bool reset = false);
+    /// What the scene calls for, and what the last frame was drawn with.
+    protocol::Inspection inspect();
     void close() { connection_.close(); }
 
 private:
     /// The next message or frame; errors, closes and garbage become exceptions.
     std::variant<protocol::ServerMessage, Frame> next();
 
+    /// The next message that `accept`s; others are taken note of.
+    template <typename Message, typename Accept> Message wait_for(const Accept& accept);
+
     Connection connection_;
     protocol::Welcome welcome_;
     std::uint32_t sequence_ = 0;
+    std::uint32_t last_edit_ = 0;
 };
 
 }  // namespace farlight::client

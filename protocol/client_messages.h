@@ -116,6 +116,33 @@ struct Ping {
     static void each_field(auto& m, auto&& visit) { visit("t", m.t, Rule{}); }
 };
 
+/// Changes the scene of all sessions.
+struct Edit {  // NOLINT(bugprone-exception-escape): as Set
+    static constexpr std::string_view kType = "edit";
+
+    std::optional<std::uint32_t> id;  ///< Chosen by the client; the answer echoes it.
+    nlohmann::json patch = nlohmann::json::object();  ///< JSON Merge Patch of the scene document.
+    bool reset = false;  ///< Back to the scene as it was loaded, before `patch`.
+
+    bool operator==(const Edit&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("id", m.id, Rule{});
+        visit("patch", m.patch, Rule{});
+        visit("reset", m.reset, kOptional);
+    }
+};
+
+/// Asks what is compiled and allocated.
+struct Inspect {
+    static constexpr std::string_view kType = "inspect";
+
+    bool operator==(const Inspect&) const = default;
+
+    static void each_field(auto&, auto&&) { }
+};
+
 struct ClientBye {
     static constexpr std::string_view kType = "bye";
 
@@ -124,6 +151,7 @@ struct ClientBye {
     static void each_field(auto&, auto&&) { }
 };
 
-using ClientMessage = std::variant<Hello, Camera, Set, Resize, SetFormat, Ack, Ping, ClientBye>;
+using ClientMessage =
+    std::variant<Hello, Camera, Set, Resize, SetFormat, Ack, Ping, ClientBye, Edit, Inspect>;
 
 }  // namespace farlight::protocol

@@ -69,6 +69,11 @@ void check(const Set& set, MessageReader& reader)
         reader.fail_at("value", ErrorCode::kWrongType,
             "has the wrong type, expected a string, number or boolean");
 }
+void check(const Edit& edit, MessageReader& reader)
+{
+    if (!edit.patch.is_object())
+        reader.fail_at("patch", ErrorCode::kWrongType, "has the wrong type, expected an object");
+}
 void check(const auto&, MessageReader&) { }
 
 template <typename Variant, std::size_t kIndex = 0>

@@ -18,7 +18,7 @@ constexpr std::string_view kSubprotocol = "farlight.v1";
 constexpr std::string_view kEndpoint = "/ws";
 constexpr std::size_t kMaxClientTextBytes = 16'384;  ///< Longest text message a server takes.
 constexpr std::size_t kMaxServerTextBytes = 4'194'304;  ///< Longest text message a client takes.
-constexpr int kMaxJsonDepth = 8;  ///< Nested arrays and objects, the message itself included.
+constexpr int kMaxJsonDepth = 16;  ///< Nested arrays and objects, the message itself included.
 constexpr std::uint32_t kMaxInFlight = 8;
 constexpr std::size_t kLockstepQueue = 64;  ///< Camera messages waiting in lockstep mode.
 constexpr double kMaxCoordinate = 1e12;
@@ -58,10 +58,12 @@ enum class ErrorCode : std::uint8_t {
     kQueueFull,
     kTooManyErrors,
     kRenderFailed,
+    kEditRefused,
 };
 constexpr std::string_view kErrorCodeNames[] = {"not_json", "unknown_type", "missing_field",
     "wrong_type", "out_of_range", "not_finite", "too_deep", "too_large", "unknown_setting",
-    "bad_setting", "no_hello", "second_hello", "queue_full", "too_many_errors", "render_failed"};
+    "bad_setting", "no_hello", "second_hello", "queue_full", "too_many_errors", "render_failed",
+    "edit_refused"};
 
 constexpr const auto& names_of(Mode)
 {

@@ -85,6 +85,7 @@ struct Welcome {
     std::vector<std::string> effects;
     nlohmann::json settings = nlohmann::json::array();  ///< As describe_settings() writes them.
     Limits limits;
+    bool edits = true;  ///< `edit` is taken.
 
     bool operator==(const Welcome&) const = default;
 
@@ -105,6 +106,7 @@ struct Welcome {
         visit("effects", m.effects, Rule{});
         visit("settings", m.settings, Rule{});
         visit("limits", m.limits, Rule{});
+        visit("edits", m.edits, kOptional);
     }
 };
 
@@ -154,6 +156,72 @@ struct Pong {
     static void each_field(auto& m, auto&& visit) { visit("t", m.t, Rule{}); }
 };
 
+/// The scene is another from the next frame on.
+struct SceneChanged {
+    static constexpr std::string_view kType = "scene_changed";
+
+    std::optional<std::uint32_t> edit;  ///< Id of this session's edit that did it.
+    SceneSummary scene;
+    std::vector<std::string> effects;
+
+    bool operator==(const SceneChanged&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("edit", m.edit, Rule{});
+        visit("scene", m.scene, Rule{});
+        visit("effects", m.effects, Rule{});
+    }
+};
+
+struct CalledEffect {
+    std::string name;  ///< As in the setting `effects`.
+    std::string reason;
+
+    bool operator==(const CalledEffect&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("name", m.name, Rule{});
+        visit("reason", m.reason, Rule{});
+    }
+};
+
+struct MemoryUse {
+    std::string name;
+    std::uint64_t bytes = 0;
+
+    bool operator==(const MemoryUse&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("name", m.name, Rule{});
+        visit("bytes", m.bytes, Rule{});
+    }
+};
+
+/// What the scene calls for, and what this session's last frame was drawn with.
+struct Inspection {
+    static constexpr std::string_view kType = "inspection";
+
+    std::vector<CalledEffect> effects;
+    std::vector<std::string> program;
+    std::vector<std::string> passes;
+    std::vector<MemoryUse> scene_memory;
+    std::vector<MemoryUse> view_memory;
+
+    bool operator==(const Inspection&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("effects", m.effects, Rule{});
+        visit("program", m.program, Rule{});
+        visit("passes", m.passes, Rule{});
+        visit("scene_memory", m.scene_memory, Rule{});
+        visit("view_memory", m.view_memory, Rule{});
+    }
+};
+
 struct ServerBye {
     static constexpr std::string_view kType = "bye";
 
@@ -169,6 +237,7 @@ struct ServerBye {
     }
 };
 
-using ServerMessage = std::variant<Welcome, State, Error, Pong, ServerBye>;
+using ServerMessage =
+    std::variant<Welcome, State, Error, Pong, ServerBye, SceneChanged, Inspection>;
 
 }  // namespace farlight::protocol

@@ -55,6 +55,7 @@ void add_options(CLI::App& app, Flags& flags, Texts& texts)
     app.add_option("--program-cache", program_cache,
            "folder that keeps compiled programs from one run to the next; off: none")
         ->default_str("$XDG_CACHE_HOME/farlight/programs");
+    app.add_flag("!--no-edits", flags.stream.edits, "let no client change the scene");
     app.add_option("--max-clients", flags.stream.max_clients, "connections served at once")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();

@@ -3,7 +3,7 @@
 #include "server/gl/context.h"
 #include "server/gl/gl_error.h"
 #include "server/render/renderer.h"
-#include "server/scene/scene_file.h"
+#include "server/scene/scene_document.h"
 #include "server/stream/listener.h"
 
 #include <boost/asio/ip/address.hpp>
@@ -23,7 +23,12 @@ constexpr int kWrongUsage = 2;
 /// What streaming needs, from the real renderer.
 class RendererService : public RenderService {
 public:
-    explicit RendererService(Renderer& renderer) : renderer_(renderer) { }
+    RendererService(Renderer& renderer, SceneDocument document)
+        : renderer_(renderer)
+        , loaded_(document)
+        , document_(std::move(document))
+    {
+    }
     std::shared_ptr<const RendererDescription> description() const override
     {
         return renderer_.description();
@@ -34,11 +39,19 @@ public:
     }
     void detach(const std::shared_ptr<FrameSource>& source) override { renderer_.detach(source); }
     void wake() override { renderer_.wake(); }
+    void edit(const nlohmann::json& merge_patch, bool reset) override
+    {
+        SceneDocument next = (reset ? loaded_ : document_).edited(merge_patch);
+        renderer_.replace_scene(next.scene());
+        document_ = std::move(next);
+    }
     std::string failure() const override { return renderer_.failure(); }
     std::uint64_t frames_rendered() const override { return renderer_.frames_rendered(); }
 
 private:
     Renderer& renderer_;
+    const SceneDocument loaded_;
+    SceneDocument document_;  ///< After all edits so far. The editing thread's.
 };
 
 int print_devices()
@@ -96,12 +109,17 @@ struct UsageError : std::runtime_error {
 
 int serve(const Flags& flags)
 {
-    Renderer renderer(load_scene(flags.scene), flags.renderer);
+    SceneDocument document = SceneDocument::load(flags.scene);
+    Renderer renderer(document.scene(), flags.renderer);
     const auto [width, height] = renderer.description()->default_extent;
     if (const auto problem = refuse_extent(static_cast<std::uint64_t>(width),
             static_cast<std::uint64_t>(height), renderer.description()->max_dimension))
         throw UsageError(*problem);
-    RendererService service(renderer);
+    if (const auto missing =
+            what_is_missing(flags.stream.settings.effects, renderer.description()->effects))
+        throw UsageError(
+            "--set effects=" + to_text(flags.stream.settings.effects) + ": " + *missing);
+    RendererService service(renderer, std::move(document));
     Listener listener(service, flags.stream);
     tell(*renderer.description(), flags);
     boost::asio::signal_set signals(listener.context(), SIGINT, SIGTERM);

@@ -1,5 +1,6 @@
 // farlight bench: milliseconds a pass, and latency beyond what drawing and encoding take.
 #include "client/camera_path.h"
+#include "client/cli/bench_effects.h"
 #include "client/cli/command.h"
 #include "client/cli/target.h"
 #include "client/picture.h"
@@ -20,6 +21,9 @@ struct Options {
     int frames = 24;
     int moves = 100;
     bool json = false;
+    bool effects = false;
+    bool leave_one_in = false;
+    std::vector<std::string> scenes;
 };
 
 struct PassTimes {
@@ -141,6 +145,11 @@ nlohmann::json to_json(const std::vector<PassTimes>& sizes, const Latency& laten
 
 int run(const Options& options)
 {
+    if (options.effects || options.leave_one_in)
+        return bench_effects(
+            options.target, {options.scenes, options.frames, options.leave_one_in, options.json});
+    if (!options.scenes.empty())
+        throw std::invalid_argument("scenes after the options go with --effects");
     const Target target(options.target);
     std::vector<protocol::Size> sizes{{320, 180}, {640, 360}};
     if (!options.target.size.empty())
@@ -172,6 +181,12 @@ Command add_bench(CLI::App& farlight)
     app->add_option("--moves", options->moves, "camera moves for latency")
         ->check(CLI::Range(1, 100'000))
         ->capture_default_str();
+    app->add_flag("--effects", options->effects,
+        "measure instead what it saves to compile only what a scene calls for");
+    app->add_flag("--leave-one-in", options->leave_one_in,
+        "with --effects: of the first scene also the cost of each effect that it lacks");
+    app->add_option(
+        "scenes", options->scenes, "with --effects: scene files, a private server each");
     app->add_flag("--json", options->json, "print JSON");
     return {app, [options] { return run(*options); }};
 }

@@ -26,11 +26,45 @@ std::string allowed_values(const nlohmann::json& setting)
     }
     if (setting.value("type", "") == "boolean")
         return "true, false";
+    if (setting.value("type", "") == "text")
+        return "text";
     return setting.value("lower", nlohmann::json()).dump() + " to "
         + setting.value("upper", nlohmann::json()).dump();
 }
 
-void print_text(const protocol::Welcome& welcome)
+std::string join(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+void print_memory(const char* of, const std::vector<protocol::MemoryUse>& uses)
+{
+    std::uint64_t sum = 0;
+    for (const auto& use : uses)
+        sum += use.bytes;
+    std::printf("memory    %s, %llu bytes\n", of, static_cast<unsigned long long>(sum));
+    for (const auto& use : uses)
+        std::printf(
+            "  %-24s %12llu\n", use.name.c_str(), static_cast<unsigned long long>(use.bytes));
+}
+
+/// What one frame with default settings was drawn with.
+void print_inspection(const protocol::Inspection& inspection)
+{
+    for (const auto& effect : inspection.effects)
+        std::cout << "effect    " << effect.name << ": " << effect.reason << "\n";
+    std::cout << "program   " << join(inspection.program) << "\n"
+              << "passes    " << join(inspection.passes) << "\n"
+              << std::flush;
+    print_memory("of the scene", inspection.scene_memory);
+    print_memory("of a picture", inspection.view_memory);
+    std::fflush(stdout);
+}
+
+void print_text(const protocol::Welcome& welcome, const protocol::Inspection& inspection)
 {
     const auto& scene = welcome.scene;
     std::cout << "server    " << welcome.server << ", protocol " << welcome.protocol << "\n"
@@ -42,11 +76,10 @@ void print_text(const protocol::Welcome& welcome)
               << welcome.limits.max_dimension << " either way\n";
     for (const std::string& note : scene.notes)
         std::cout << "note      " << note << "\n";
-    for (const std::string& effect : welcome.effects)
-        std::cout << "effect    " << effect << "\n";
     for (const auto& [name, path] : welcome.camera_paths)
         std::cout << "path      " << name << ", frames 0 to " << path.back().frame << "\n";
-    std::cout << "settings (value, what else it may be)\n";
+    print_inspection(inspection);
+    std::cout << "settings (value, what else it may be)\n" << std::flush;
     for (const auto& setting : welcome.settings)
         std::printf("  %-24s %-10s %s\n    %s\n", setting.value("key", "").c_str(),
             setting.value("value", nlohmann::json()).dump().c_str(),
@@ -57,11 +90,19 @@ int run(const Options& options)
 {
     const Target target(options.target);
     Session session(target.url(), target.hello(protocol::Mode::kLockstep, protocol::Format::kPng));
-    if (options.json)
-        print_json(
-            nlohmann::json::parse(protocol::encode(protocol::ServerMessage(session.welcome()))));
-    else
-        print_text(session.welcome());
+    session.draw(session.welcome().camera);
+    const protocol::Inspection inspection = session.inspect();
+    if (options.json) {
+        const auto parsed = [](const protocol::ServerMessage& message) {
+            return nlohmann::json::parse(protocol::encode(message));
+        };
+        nlohmann::json json = parsed(session.welcome());
+        json["inspection"] = parsed(inspection);
+        json["inspection"].erase("type");
+        print_json(json);
+    } else {
+        print_text(session.welcome(), inspection);
+    }
     session.close();
     return kDone;
 }
@@ -74,7 +115,8 @@ Command add_info(CLI::App& farlight)
         farlight.add_subcommand("info", "what a server is: device, scene, effects, settings");
     auto options = std::make_shared<Options>();
     options->target.add_to(*app);
-    app->add_flag("--json", options->json, "print the server's welcome message as JSON");
+    app->add_flag(
+        "--json", options->json, "print the server's welcome message and inspection as JSON");
     return {app, [options] { return run(*options); }};
 }
 

@@ -43,6 +43,8 @@ std::pair<std::vector<FrameFacts>, std::map<int, Picture>> play_once(const Scrip
     const Url& url, const Settings& settings, const std::function<bool(int)>& keep)
 {
     Session session(url, hello_for(script, settings));
+    if (script.edits())
+        session.edit(nlohmann::json::object(), /*reset=*/true);  // what the run before has left
     std::vector<FrameFacts> facts;
     std::map<int, Picture> pictures;
     auto event = script.events.begin();
@@ -51,6 +53,8 @@ std::pair<std::vector<FrameFacts>, std::map<int, Picture>> play_once(const Scrip
         for (; event != script.events.end() && event->frame == i; ++event) {
             for (const auto& [key, value] : event->set)
                 session.set(key, value);
+            if (!event->edit.is_null())
+                session.edit(event->edit);
             cut = cut || event->cut;
         }
         const Frame frame = session.draw(pose_of(script, session.welcome(), i), cut);

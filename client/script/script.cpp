@@ -43,14 +43,19 @@ std::vector<ScriptEvent> events_in(const JsonInput& input, int frames)
 {
     std::vector<ScriptEvent> events;
     for (const JsonInput& element : input.elements()) {
-        element.expect_object({"frame", "set", "cut"});
+        element.expect_object({"frame", "set", "edit", "cut"});
         ScriptEvent event{.frame = element.at("frame").integer(0, frames - 1)};
         if (const auto set = element.find("set"))
             event.set = settings_in(*set);
+        if (const auto edit = element.find("edit")) {
+            if (!edit->value().is_object())
+                edit->fail("an object, a JSON Merge Patch of the scene");
+            event.edit = edit->value();
+        }
         if (const auto cut = element.find("cut"))
             event.cut = cut->boolean();
-        if (event.set.empty() && !event.cut)
-            element.fail("an event that does nothing", "set or cut");
+        if (event.set.empty() && event.edit.is_null() && !event.cut)
+            element.fail("an event that does nothing", "set, edit or cut");
         if (!events.empty() && event.frame < events.back().frame)
             element.at("frame").fail("events in the order of their frames");
         events.push_back(event);
@@ -154,6 +159,12 @@ Script parse_script(const JsonInput& input)
         script.reference = reference_in(*reference);
     script.expectations = expectations_in(input.at("expect"), script);
     return script;
+}
+
+bool Script::edits() const
+{
+    return std::any_of(events.begin(), events.end(),
+        [](const ScriptEvent& event) { return !event.edit.is_null(); });
 }
 
 Script read_script(const std::filesystem::path& file)

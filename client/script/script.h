@@ -36,6 +36,7 @@ using CameraMove = std::variant<RestMove, OrbitMove, NamedPathMove, KeyframeMove
 struct ScriptEvent {
     int frame = 0;
     Settings set;
+    nlohmann::json edit;  ///< Patch of the scene; null: none.
     bool cut = false;
 };
 
@@ -55,6 +56,8 @@ struct Script {
     std::map<std::string, Settings> runs;  ///< At least one.
     std::optional<Reference> reference;
     std::vector<Expectation> expectations;
+
+    bool edits() const;
 };
 
 /// Throws InputError.

@@ -38,6 +38,8 @@ export const CLIENT_MESSAGES = {
     format: { format: true },
     ack: { frame_id: true, decode_us: false, shown_us: false },
     ping: { t: true },
+    edit: { id: false, patch: true, reset: false },
+    inspect: {},
     bye: {},
 };
 
@@ -45,6 +47,8 @@ export const CLIENT_MESSAGES = {
 export const SERVER_MESSAGES = {
     welcome: ["protocol", "server", "session", "mode", "format", "size", "max_in_flight", "device",
         "gl_renderer", "scene", "camera", "camera_paths", "effects", "settings", "limits"],
+    scene_changed: ["scene", "effects"],
+    inspection: ["effects", "program", "passes", "scene_memory", "view_memory"],
     state: ["settings", "size", "format"],
     error: ["code", "message", "fatal"],
     pong: ["t"],

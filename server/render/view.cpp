@@ -153,6 +153,8 @@ void View::begin(const RenderRequest& request)
 RenderedFrame View::finish()
 {
     frame_.image = readback_.finish();
+    for (TextureAllocation& held : graph_.allocations())
+        frame_.memory.emplace_back(std::move(held.name), held.bytes);
     glGetNamedBufferSubData(
         counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
     for (const TimedPass& pass : graph_.collect_times()) {

@@ -51,7 +51,9 @@ void refuse(const ScenePlace& place, std::string_view found, std::string_view ex
     if (!place.pointer.empty())
         message += place.pointer + ": ";
     message.append("found ").append(found).append(", expected ").append(expected);
-    throw SceneError(message);
+    SceneError error(message);
+    error.pointer = place.pointer;
+    throw error;
 }
 
 std::string describe(const nlohmann::json& value)

@@ -12,6 +12,7 @@ namespace farlight {
 /// `FILE: /json/pointer: found X, expected Y`.
 struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
+    std::string pointer;  ///< JSON pointer of the value at fault; empty: the whole file.
 };
 
 /// Loads `.json`, `.gltf` or `.glb`, chosen by extension. Throws SceneError.

@@ -261,6 +261,11 @@ void Connection::carry_out(const effects::MessageRefused& refused)
             quoted(refused.problem));
 }
 
+void Connection::carry_out(effects::Edit edit)
+{
+    hub_.edit(weak_from_this(), std::move(edit.edit));
+}
+
 // ---------------------------------------------------------------- writing
 
 void Connection::write_next()
@@ -349,6 +354,19 @@ void Connection::shut_down(const std::string& reason, std::uint32_t reconnect_ms
 void Connection::renderer_failed(const std::string& why)
 {
     session_.renderer_failed(why);
+    advance();
+}
+
+void Connection::scene_changed(
+    std::shared_ptr<const SessionDefaults> defaults, std::optional<protocol::Edit> edit)
+{
+    session_.scene_changed(std::move(defaults), std::move(edit), Clock::now());
+    advance();
+}
+
+void Connection::edit_refused(const std::string& why, const std::string& pointer)
+{
+    session_.edit_refused(why, pointer);
     advance();
 }
 

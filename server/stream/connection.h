@@ -49,6 +49,9 @@ public:
     void start(const HttpRequest& request);
     void shut_down(const std::string& reason, std::uint32_t reconnect_ms);
     void renderer_failed(const std::string& why);
+    void scene_changed(
+        std::shared_ptr<const SessionDefaults> defaults, std::optional<protocol::Edit> edit);
+    void edit_refused(const std::string& why, const std::string& pointer);
     /// Stops the renderer from calling; may wait for a frame being drawn. Only for the very end.
     void detach_now();
 
@@ -75,6 +78,7 @@ private:
     void carry_out(const effects::Acknowledged& acknowledged);
     void carry_out(const effects::FrameDropped& dropped);
     void carry_out(const effects::MessageRefused& refused);
+    void carry_out(effects::Edit edit);
 
     void write_next();
     void on_written(ErrorCode error, bool was_frame);

@@ -73,6 +73,12 @@ void DrawPlan::set_format(protocol::Format format, Time now)
     change(now);
 }
 
+void DrawPlan::change_scene(Time now)
+{
+    ++session_epoch_;
+    change(now);
+}
+
 std::optional<Draw> DrawPlan::next()
 {
     if (mode_ == protocol::Mode::kLockstep) {

@@ -56,6 +56,8 @@ public:
     void set_settings(const RenderSettings& settings, Time now);
     void set_extent(Extent extent, Time now);
     void set_format(protocol::Format format, Time now);
+    /// The same wishes of another scene.
+    void change_scene(Time now);
 
     /// Whether the scene follows time, as the last frame knew: while it plays it never rests.
     void scene_moves(bool moves) { moves_ = moves; }

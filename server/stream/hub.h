@@ -22,6 +22,7 @@ struct StreamOptions {
     std::vector<std::string> allowed_origins;  ///< Besides the server's own; "*" allows all.
     int max_clients = 64;
     RenderSettings settings;  ///< Defaults of every new session.
+    bool edits = true;  ///< Clients may change the scene.
 
     // Deadlines; tests shorten them.
     SessionDeadlines session;
@@ -37,7 +38,7 @@ struct Hub {
 
     RenderService& renderer;  ///< Thread-safe.
     const StreamOptions options;
-    const std::shared_ptr<const SessionDefaults> session_defaults;
+    std::shared_ptr<const SessionDefaults> session_defaults;  ///< Of the scene being drawn.
     Metrics metrics;  ///< Thread-safe.
     std::set<Connection*> connections;
     int http_connections = 0;
@@ -45,16 +46,21 @@ struct Hub {
     bool draining = false;
     std::shared_ptr<FrameSource> snapshot;  ///< Being drawn: one at a time.
     std::function<void()> on_connection_gone;
+    int edits_waiting = 0;
 
     // Last, so that they go first: `context` holds connections, whose strands are those of
     // `workers`.
     boost::asio::thread_pool detacher{1};  ///< Waits for frames being drawn. Thread-safe.
     boost::asio::thread_pool workers;  ///< Encode. Thread-safe.
     boost::asio::io_context context;  ///< The network thread's. Posting to it is thread-safe.
+    boost::asio::thread_pool editor{1};  ///< Edits, one after the other; posts to `context`.
 
     /// Empty, or why no client can be served now.
     std::string not_ready() const;
     int frames_in_flight() const;
+    /// Changes the scene, then tells all sessions, or `author` why not.
+    void edit(std::weak_ptr<Connection> author, protocol::Edit edit);
+    void tell_of_new_scene(const std::weak_ptr<Connection>& author, const protocol::Edit& edit);
     /// Detaches without holding up network or encoders: a frame may be being drawn.
     void detach_later(std::shared_ptr<FrameSource> source);
 };

@@ -136,6 +136,47 @@ void Session::on(const protocol::ClientBye& /*bye*/, Time /*now*/)
     close(CloseCode::kNormal, "bye");
 }
 
+void Session::on(const protocol::Edit& edit, Time /*now*/)
+{
+    if (!defaults_->welcome.edits)
+        return edit_refused("this server's scene is not to be edited", "");
+    effects_.push_back(effects::Edit{edit});
+}
+
+void Session::on(const protocol::Inspect& /*inspect*/, Time /*now*/)
+{
+    protocol::Inspection inspection = last_frame_;
+    const RendererDescription& description = *defaults_->description;
+    for (const ActiveEffect& effect : description.effects)
+        inspection.effects.push_back({std::string(effect.name), effect.reason});
+    for (const auto& [name, bytes] : description.allocations)
+        inspection.scene_memory.push_back({name, bytes});
+    effects_.push_back(effects::Say{std::move(inspection)});
+}
+
+void Session::scene_changed(
+    std::shared_ptr<const SessionDefaults> defaults, std::optional<protocol::Edit> edit, Time now)
+{
+    defaults_ = std::move(defaults);
+    if (!plan_ || closed_)
+        return;
+    plan_->change_scene(now);
+    protocol::SceneChanged changed{{}, defaults_->welcome.scene, defaults_->welcome.effects};
+    if (edit)
+        changed.edit = edit->id;
+    effects_.push_back(effects::Say{std::move(changed)});
+    plan_drawing();
+}
+
+void Session::edit_refused(const std::string& why, const std::string& pointer)
+{
+    Error error{ErrorCode::kEditRefused, why, std::nullopt, false};
+    if (!pointer.empty())
+        error.field = pointer;
+    if (!closed_)
+        refuse(std::move(error));
+}
+
 bool Session::try_setting(
     RenderSettings& settings, const std::string& key, const nlohmann::json& value)
 {
@@ -144,7 +185,12 @@ bool Session::try_setting(
         return false;
     }
     try {
-        set_setting(settings, key, value);
+        RenderSettings changed = settings;
+        set_setting(changed, key, value);
+        if (const auto missing = what_is_missing(changed.effects, defaults_->description->effects);
+            missing && changed.effects != settings.effects)
+            throw SettingError("setting 'effects': " + *missing);
+        settings = changed;
         return true;
     } catch (const SettingError& problem) {
         refuse({ErrorCode::kBadSetting, problem.what(), key, false});
@@ -232,6 +278,7 @@ void Session::drawn(RenderedFrame frame, Time begun)
     if (!frame.error.empty())
         return renderer_failed(frame.error);
     plan_->scene_moves(frame.moves);
+    note(frame);
     if (plan_->repeats_final(draw)) {
         drop_frame("repeats_final");
         return plan_drawing();
@@ -246,6 +293,18 @@ void Session::drawn(RenderedFrame frame, Time begun)
     effects_.push_back(effects::Encode{task_for(std::move(frame), draw, begun)});
     encoding_.push_back(draw.asked);
     plan_drawing();
+}
+
+/// Keeps what `inspect` may ask for.
+void Session::note(const RenderedFrame& frame)
+{
+    last_frame_ = {};
+    for (const std::string_view name : frame.effects.names())
+        last_frame_.program.emplace_back(name);
+    for (const PassTime& time : frame.pass_times)
+        last_frame_.passes.push_back(time.pass);
+    for (const auto& [name, bytes] : frame.memory)
+        last_frame_.view_memory.push_back({name, bytes});
 }
 
 EncodeTask Session::task_for(RenderedFrame&& frame, const Draw& draw, Time begun) const

@@ -64,10 +64,15 @@ struct FrameDropped {
 struct MessageRefused {
     std::string problem;
 };
+/// Change the scene, then Session::scene_changed() of all sessions or edit_refused() of this one.
+struct Edit {
+    protocol::Edit edit;
+};
 }  // namespace effects
 
-using SessionEffect = std::variant<effects::Say, effects::Encode, effects::WakeRenderer,
-    effects::Close, effects::Acknowledged, effects::FrameDropped, effects::MessageRefused>;
+using SessionEffect =
+    std::variant<effects::Say, effects::Encode, effects::WakeRenderer, effects::Close,
+        effects::Acknowledged, effects::FrameDropped, effects::MessageRefused, effects::Edit>;
 
 /// A frame for the socket: the two parts are written one after the other as one message.
 struct OutgoingFrame {
@@ -81,6 +86,7 @@ struct SessionDefaults {
     RenderRequest request;  ///< Scene camera, default settings and size.
     int max_dimension = 0;
     SessionDeadlines deadlines;
+    std::shared_ptr<const RendererDescription> description;
 };
 
 class Session {
@@ -98,6 +104,10 @@ public:
     void drawn(RenderedFrame frame, Time begun);
     void encoded(EncodedFrame frame);
     void frame_written(Time now);
+    /// The scene is another: `defaults` are those of it. `edit`: this session's edit that did it.
+    void scene_changed(std::shared_ptr<const SessionDefaults> defaults,
+        std::optional<protocol::Edit> edit, Time now);
+    void edit_refused(const std::string& why, const std::string& pointer);
     void tick(Time now);
     void renderer_failed(const std::string& why);
     void shut_down(const std::string& reason, std::uint32_t reconnect_ms);
@@ -126,10 +136,13 @@ private:
     void on(const protocol::Ack& ack, Time now);
     void on(const protocol::Ping& ping, Time now);
     void on(const protocol::ClientBye& bye, Time now);
+    void on(const protocol::Edit& edit, Time now);
+    void on(const protocol::Inspect& inspect, Time now);
 
     void plan_drawing();
     bool may_start() const;
     EncodeTask task_for(RenderedFrame&& frame, const Draw& draw, Time begun) const;
+    void note(const RenderedFrame& frame);
     void drop_frame(std::string_view why);
     bool try_setting(RenderSettings& settings, const std::string& key, const nlohmann::json& value);
     std::optional<Extent> checked_extent(std::uint32_t width, std::uint32_t height);
@@ -147,6 +160,7 @@ private:
     std::deque<std::optional<Time>> encoding_;  ///< When each was asked for, in order.
     std::deque<ReadyFrame> ready_;  ///< Wait for the socket; interactive: at most one.
     std::uint32_t last_frame_id_ = 0;
+    protocol::Inspection last_frame_;  ///< What the last frame was drawn with.
     int refused_messages_ = 0;
     bool closed_ = false;
     std::vector<SessionEffect> effects_;

@@ -79,8 +79,26 @@ TEST_F(CommandTest, InfoSaysWhatTheServerIs)
     EXPECT_THAT(text.out, HasSubstr("Fake (fake.json), 2 triangles, 1 lights"));
     EXPECT_THAT(text.out, HasSubstr("a note"));
     EXPECT_THAT(text.out, HasSubstr("same seed, same picture"));
+    EXPECT_THAT(text.out, HasSubstr("fog: medium 'haze'"));
+    EXPECT_THAT(text.out, HasSubstr("program   fog, lens"));
+    EXPECT_THAT(text.out, HasSubstr("bvh_nodes"));
     const Outcome json = farlight("info --json" + url);
     EXPECT_EQ(nlohmann::json::parse(json.out)["scene"]["name"], "Fake");
+    EXPECT_EQ(nlohmann::json::parse(json.out)["inspection"]["view_memory"][0]["bytes"], 2048);
+}
+
+TEST_F(CommandTest, BenchEffectsComparesTheProgramsAndLeavesEachEffectIn)
+{
+    const Outcome text = farlight("bench --effects --leave-one-in --frames 3" + url);
+    EXPECT_THAT(text.out, HasSubstr("95 % interval"));
+    EXPECT_THAT(text.out, HasSubstr("Fake with one effect more than it calls for\n"));
+    EXPECT_THAT(text.out, HasSubstr("\nlens "));
+    const Outcome json = farlight("bench --effects --json --frames 3" + url);
+    EXPECT_EQ(json.status, 0) << json.err;
+    const auto parsed = nlohmann::json::parse(json.out);
+    EXPECT_EQ(parsed["scenes"][0]["effects"], "fog");
+    EXPECT_EQ(parsed["scenes"][0]["general"]["view_bytes"], 2048);
+    EXPECT_EQ(parsed["scenes"][0]["ratio"], 1.0);
 }
 
 TEST_F(CommandTest, RecordWritesNumberedFrames)

@@ -67,6 +67,23 @@ TEST(Session, LockstepGivesOneFrameACamera)
     session.close();
 }
 
+TEST(Session, EditsAndInspects)
+{
+    FakeServer server([](FakePeer& peer) { serve_lockstep(peer, {}); });
+    Session session(server.url(), lockstep_hello);
+    EXPECT_EQ(session.edit({{"medium", nullptr}}).edit, 1U);
+    EXPECT_EQ(session.edit(nlohmann::json::object(), /*reset=*/true).edit, 2U);
+    EXPECT_EQ(session.inspect().program, (std::vector<std::string>{"fog", "lens"}));
+    try {
+        session.edit({{"bad", 1}});
+        FAIL() << "accepted";
+    } catch (const RefusedError& refused) {
+        EXPECT_EQ(refused.error.code, ErrorCode::kEditRefused);
+        EXPECT_EQ(refused.error.field, "/bad");
+    }
+    EXPECT_EQ(session.edit(nlohmann::json::object()).edit, 4U) << "the session goes on";
+}
+
 TEST(Session, ARefusalInHelloNamesTheSetting)
 {
     FakeServer server(

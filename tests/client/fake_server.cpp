@@ -206,6 +206,16 @@ void serve_lockstep(FakePeer& peer, const FakeRenderer& renderer)
             session.settings[set->key] = set->value;
             peer.send(
                 State{.settings = session.settings, .size = session.size, .format = Format::kRaw});
+        } else if (const auto* edit = std::get_if<Edit>(&message)) {
+            if (edit->patch.contains("bad"))
+                peer.send(Error{.code = ErrorCode::kEditRefused,
+                    .message = "fake.json: /bad: found 1, expected nothing",
+                    .field = "/bad"});
+            else
+                peer.send(SceneChanged{edit->id, welcome.scene, {}});
+        } else if (std::holds_alternative<Inspect>(message)) {
+            peer.send(Inspection{{{"fog", "medium 'haze'"}}, {"fog", "lens"}, {"path_trace"},
+                {{"bvh_nodes", 1024}}, {{"gbuffer", 2048}}});
         } else if (std::holds_alternative<ClientBye>(message)) {
             return peer.close(1000, "");
         }

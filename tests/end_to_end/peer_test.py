@@ -190,7 +190,7 @@ class Misbehaviour(unittest.IsolatedAsyncioTestCase):
             ('{"type":"resize","width":0,"height":1}', "out_of_range", "width"),
             ('{"type":"resize","width":65000,"height":1}', "out_of_range", None),
             ('{"type":"ping","t":1e999}', "not_finite", None),
-            ('{"type":"ping","t":1,"x":' + "[" * 9 + "]" * 9 + "}", "too_deep", None),
+            ('{"type":"ping","t":1,"x":' + "[" * 17 + "]" * 17 + "}", "too_deep", None),
             ('{"type":"set","key":"sharpness","value":1}', "unknown_setting", "sharpness"),
             ('{"type":"set","key":"denoiser","value":"magic"}', "bad_setting", "denoiser"),
             ('{"type":"set","key":"max_depth","value":0}', "bad_setting", "max_depth"),

@@ -165,6 +165,8 @@ TEST(ProtocolDocument, FieldTablesEqualTheCode)
     EXPECT_THAT(rows_in_page("3/format"), ElementsAreArray(rows_in_code<SetFormat>()));
     EXPECT_THAT(rows_in_page("3/ack"), ElementsAreArray(rows_in_code<Ack>()));
     EXPECT_THAT(rows_in_page("3/ping"), ElementsAreArray(rows_in_code<Ping>()));
+    EXPECT_THAT(rows_in_page("3/edit"), ElementsAreArray(rows_in_code<Edit>()));
+    EXPECT_THAT(rows_in_page("3/inspect"), ElementsAreArray(rows_in_code<Inspect>()));
     EXPECT_THAT(rows_in_page("3/bye"), ElementsAreArray(rows_in_code<ClientBye>()));
     EXPECT_THAT(rows_in_page("4/welcome"), ElementsAreArray(rows_in_code<Welcome>()));
     EXPECT_THAT(rows_in_page("4/scene"), ElementsAreArray(rows_in_code<SceneSummary>()));
@@ -174,6 +176,10 @@ TEST(ProtocolDocument, FieldTablesEqualTheCode)
     EXPECT_THAT(rows_in_page("4/limits"), ElementsAreArray(rows_in_code<Limits>()));
     EXPECT_THAT(rows_in_page("4/state"), ElementsAreArray(rows_in_code<State>()));
     EXPECT_THAT(rows_in_page("4/error"), ElementsAreArray(rows_in_code<Error>()));
+    EXPECT_THAT(rows_in_page("4/scene_changed"), ElementsAreArray(rows_in_code<SceneChanged>()));
+    EXPECT_THAT(rows_in_page("4/inspection"), ElementsAreArray(rows_in_code<Inspection>()));
+    EXPECT_THAT(rows_in_page("4/effect"), ElementsAreArray(rows_in_code<CalledEffect>()));
+    EXPECT_THAT(rows_in_page("4/memory"), ElementsAreArray(rows_in_code<MemoryUse>()));
     EXPECT_THAT(rows_in_page("4/pong"), ElementsAreArray(rows_in_code<Pong>()));
     EXPECT_THAT(rows_in_page("4/bye"), ElementsAreArray(rows_in_code<ServerBye>()));
 }

@@ -100,9 +100,9 @@ INSTANTIATE_TEST_SUITE_P(Messages, DecodeRefuses,
             "value", "has the wrong type, expected a string, number or boolean"},
         BadMessage{"LongKey", R"({"type":"set","value":1,"key":")" + std::string(65, 'k') + "\"}",
             kTooLarge, "key", "has 65 bytes, expected at most 64"},
-        BadMessage{"TooDeep", nested(8), kTooDeep, "", "nests deeper than 8 levels"},
+        BadMessage{"TooDeep", nested(16), kTooDeep, "", "nests deeper than 16 levels"},
         BadMessage{
-            "AbsurdlyDeep", std::string(16000, '['), kTooDeep, "", "nests deeper than 8 levels"},
+            "AbsurdlyDeep", std::string(16000, '['), kTooDeep, "", "nests deeper than 16 levels"},
         BadMessage{"TooLarge", std::string(16385, ' '), kTooLarge, "",
             "has 16385 bytes, expected at most 16384"}),
     [](const auto& tested) { return tested.param.name; });

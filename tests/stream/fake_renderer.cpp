@@ -1,9 +1,12 @@
 // FakeRenderer: see the header.
 #include "tests/stream/fake_renderer.h"
 
+#include "server/scene/scene_file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 
 namespace farlight {
 namespace {
@@ -21,6 +24,7 @@ RendererDescription fake_description()
     description.camera.position = {0, 0, 5};
     description.default_extent = {64, 36};
     description.max_dimension = 4096;
+    description.effects = {{"fog", "FX_FOG", "medium 'haze', sigma_t 0.02 1/m"}};
     return description;
 }
 
@@ -64,6 +68,25 @@ FakeRenderer::~FakeRenderer()
     }
     woken_.notify_one();
     thread_.join();
+}
+
+std::shared_ptr<const RendererDescription> FakeRenderer::description() const
+{
+    const std::lock_guard lock(state_mutex_);
+    return std::make_shared<const RendererDescription>(description_);
+}
+
+void FakeRenderer::edit(const nlohmann::json& merge_patch, bool reset)
+{
+    const std::lock_guard lock(state_mutex_);
+    if (merge_patch.contains("bad")) {
+        SceneError refused("gradient.json: /bad: found something, expected nothing");
+        refused.pointer = "/bad";
+        throw refused;
+    }
+    if (reset)
+        description_ = fake_description();
+    description_.scene_name = merge_patch.value("name", description_.scene_name);
 }
 
 void FakeRenderer::attach(std::shared_ptr<FrameSource> source)
@@ -155,6 +178,7 @@ RenderedFrame FakeRenderer::draw(View& view, const RenderRequest& request) const
     }
     if (!frame.error.empty())
         return frame;
+    frame.effects = EffectMask::of({"fog"});
     frame.history_reset =
         !view.previous || request.reset_history || view.previous->extent != request.extent;
     const bool same = view.previous && view.previous->camera == request.camera

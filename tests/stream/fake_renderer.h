@@ -21,10 +21,9 @@ public:
     explicit FakeRenderer(std::chrono::milliseconds draw_time = std::chrono::milliseconds(0));
     ~FakeRenderer() override;
 
-    std::shared_ptr<const RendererDescription> description() const override
-    {
-        return std::make_shared<const RendererDescription>(description_);
-    }
+    std::shared_ptr<const RendererDescription> description() const override;
+    /// Takes over `name`; refuses what has a `bad`.
+    void edit(const nlohmann::json& merge_patch, bool reset) override;
     void attach(std::shared_ptr<FrameSource> source) override;
     void detach(const std::shared_ptr<FrameSource>& source) override;
     void wake() override;

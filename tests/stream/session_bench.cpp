@@ -11,6 +11,7 @@ std::shared_ptr<const SessionDefaults> bench_defaults()
     auto defaults = std::make_shared<SessionDefaults>();
     defaults->request.extent = {64, 36};
     defaults->max_dimension = 4096;
+    defaults->description = std::make_shared<RendererDescription>();
     return defaults;
 }
 

@@ -125,6 +125,8 @@ template protocol::State TestClient::next();
 template protocol::Error TestClient::next();
 template protocol::Pong TestClient::next();
 template protocol::ServerBye TestClient::next();
+template protocol::SceneChanged TestClient::next();
+template protocol::Inspection TestClient::next();
 
 ReceivedFrame TestClient::next_frame()
 {

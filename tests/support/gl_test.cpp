@@ -28,9 +28,15 @@ TestScene::TestScene(Scene s)
     scene_programs_.follow(gpu_scene_);
 }
 
+const Context& GlTest::context()
+{
+    static const Context software("software");
+    return software;
+}
+
 void GlTest::SetUpTestSuite()
 {
-    static const Context context("software");
+    context();
 }
 
 Scene GlTest::shipped_scene(const std::string& name)

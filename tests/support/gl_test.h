@@ -31,6 +31,9 @@ class GlTest : public testing::Test {
 protected:
     static void SetUpTestSuite();
 
+    /// The process-wide one, current on the main thread.
+    static const Context& context();
+
     /// A file of scenes/.
     static Scene shipped_scene(const std::string& name);
 };

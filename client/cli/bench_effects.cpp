@@ -1,0 +1,242 @@
+// Two programs take turns in one session, A B B A, so that neither heat nor other programs favour
+// one.
+#include "client/cli/bench_effects.h"
+
+#include "client/camera_path.h"
+#include "client/cli/command.h"
+#include "client/metrics/bootstrap.h"
+#include "client/session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <numeric>
+#include <optional>
+
+namespace farlight::client {
+namespace {
+
+constexpr double kDegreesPerFrame = 1;
+/// A scene's own programs may be this much slower than the general ones: the noise of a good run.
+constexpr double kMostRatio = 1.01;
+
+/// What drawing with one choice of effects takes.
+struct Side {
+    std::string effects;  ///< Value of the setting.
+    std::vector<double> ms;  ///< Trace and denoise, a frame.
+    double first_ms = 0;  ///< The first frame, compiling included.
+    std::uint64_t view_bytes = 0;
+    std::size_t passes = 0;
+};
+
+struct Row {
+    std::string name;
+    std::string effects;  ///< What the scene calls for.
+    Side special;
+    Side general;
+    std::uint64_t scene_bytes = 0;
+    RatioOfMedians ratio;  ///< special / general
+
+    double compile_ms() const { return std::max(0.0, special.first_ms - median(special.ms)); }
+    /// Frames after which compiling has paid, if it ever does.
+    std::optional<double> break_even() const
+    {
+        const double saved = median(general.ms) - median(special.ms);
+        return saved > 0 ? std::optional(compile_ms() / saved) : std::nullopt;
+    }
+    bool too_slow() const { return ratio.interval.lower > kMostRatio; }
+};
+
+std::uint64_t sum_of(const std::vector<protocol::MemoryUse>& uses)
+{
+    return std::accumulate(uses.begin(), uses.end(), std::uint64_t{0},
+        [](std::uint64_t sum, const auto& use) { return sum + use.bytes; });
+}
+
+std::string join(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : ",") + word;
+    return text;
+}
+
+class Bench {
+public:
+    explicit Bench(const Target& target)
+        : session_(
+            target.url(), target.hello(protocol::Mode::kLockstep, protocol::Format::kJpeg420))
+    {
+    }
+
+    const protocol::Welcome& welcome() const { return session_.welcome(); }
+    protocol::Inspection inspect() { return session_.inspect(); }
+
+    /// The first frame compiles; the second fills histories.
+    void warm_up(Side& side)
+    {
+        const auto begun = std::chrono::steady_clock::now();
+        draw(side);
+        side.first_ms =
+            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun)
+                .count();
+        draw(side);
+        const protocol::Inspection inspection = inspect();
+        side.view_bytes = sum_of(inspection.view_memory);
+        side.passes = inspection.passes.size();
+    }
+
+    void take_turns(Side& a, Side& b, int frames)
+    {
+        for (int i = 0; i < frames; ++i) {
+            Side& first = i % 2 == 0 ? a : b;
+            Side& second = i % 2 == 0 ? b : a;
+            first.ms.push_back(draw(first));
+            second.ms.push_back(draw(second));
+        }
+    }
+
+private:
+    double draw(const Side& side)
+    {
+        if (side.effects != set_) {
+            session_.set("effects", side.effects);
+            set_ = side.effects;
+        }
+        const double angle = kDegreesPerFrame * (frame_++ % 30);
+        const auto header =
+            session_.draw(orbit(welcome().camera, middle_of(welcome().scene), angle)).header;
+        return (header.trace_us + header.denoise_us) / 1000.0;
+    }
+
+    Session session_;
+    std::string set_;
+    int frame_ = 0;
+};
+
+/// Programs with what the scene calls for and `more`, against the general ones or, with `more`,
+/// against those without.
+Row measure(Bench& bench, const std::string& name, const std::string& more, int frames)
+{
+    const protocol::Inspection scene = bench.inspect();
+    std::vector<std::string> names;
+    for (const auto& effect : scene.effects)
+        names.push_back(effect.name);
+    Row row;
+    row.name = name;
+    row.effects = join(names);
+    row.scene_bytes = sum_of(scene.scene_memory);
+    row.special.effects = row.effects;
+    row.general.effects = "general";
+    if (!more.empty()) {
+        row.general.effects = row.effects;
+        names.push_back(more);
+        row.special.effects = join(names);
+    }
+    bench.warm_up(row.special);
+    bench.warm_up(row.general);
+    bench.take_turns(row.special, row.general, frames);
+    row.ratio = ratio_of_medians(row.special.ms, row.general.ms);
+    return row;
+}
+
+/// The names of all effects that the scene lacks, as the server knows them.
+std::vector<std::string> lacking(Bench& bench)
+{
+    Side general{.effects = "general"};
+    bench.warm_up(general);
+    protocol::Inspection inspection = bench.inspect();
+    std::erase_if(inspection.program, [&](const std::string& name) {
+        return std::any_of(inspection.effects.begin(), inspection.effects.end(),
+            [&](const auto& effect) { return effect.name == name; });
+    });
+    return inspection.program;
+}
+
+nlohmann::json to_json(const Row& row)
+{
+    const auto side = [](const Side& s) {
+        return nlohmann::json{{"effects", s.effects}, {"median_ms", median(s.ms)},
+            {"first_frame_ms", s.first_ms}, {"view_bytes", s.view_bytes}, {"passes", s.passes}};
+    };
+    nlohmann::json json{{"name", row.name}, {"effects", row.effects},
+        {"special", side(row.special)}, {"general", side(row.general)},
+        {"scene_bytes", row.scene_bytes}, {"ratio", row.ratio.ratio},
+        {"ratio_interval", {row.ratio.interval.lower, row.ratio.interval.upper}},
+        {"compile_ms", row.compile_ms()}};
+    if (const auto frames = row.break_even())
+        json["break_even_frames"] = *frames;
+    return json;
+}
+
+double mib(std::uint64_t bytes)
+{
+    return static_cast<double>(bytes) / (1U << 20U);
+}
+
+void print_scenes(const std::vector<Row>& rows)
+{
+    std::printf("%-20s %9s %9s %6s  %-15s %9s %9s %9s %7s\n", "scene", "general", "its own",
+        "ratio", "95 % interval", "general", "its own", "compile", "frames");
+    std::printf("%-20s %9s %9s %6s  %-15s %9s %9s %9s %7s\n", "", "[ms]", "[ms]", "", "", "[MiB]",
+        "[MiB]", "[ms]", "to pay");
+    for (const Row& row : rows) {
+        const auto frames = row.break_even();
+        std::printf("%-20s %9.2f %9.2f %6.3f  %.3f to %.3f %s%9.1f %9.1f %9.0f %7s\n",
+            row.name.c_str(), median(row.general.ms), median(row.special.ms), row.ratio.ratio,
+            row.ratio.interval.lower, row.ratio.interval.upper, row.too_slow() ? "!" : " ",
+            mib(row.scene_bytes + row.general.view_bytes),
+            mib(row.scene_bytes + row.special.view_bytes), row.compile_ms(),
+            frames ? std::to_string(static_cast<long>(*frames + 0.5)).c_str() : "never");
+    }
+}
+
+void print_leave_one_in(const std::vector<Row>& rows, const std::string& scene)
+{
+    std::printf("\n%s with one effect more than it calls for\n", scene.c_str());
+    std::printf("%-20s %9s %6s  %-15s\n", "effect", "[ms]", "ratio", "95 % interval");
+    for (const Row& row : rows)
+        std::printf("%-20s %9.2f %6.3f  %.3f to %.3f\n", row.name.c_str(), median(row.special.ms),
+            row.ratio.ratio, row.ratio.interval.lower, row.ratio.interval.upper);
+}
+
+}  // namespace
+
+int bench_effects(const TargetOptions& options, const EffectsBenchOptions& bench_options)
+{
+    std::vector<std::string> scenes = bench_options.scenes;
+    if (scenes.empty())
+        scenes.push_back(options.scene);
+    std::vector<Row> rows;
+    std::vector<Row> left_in;
+    for (const std::string& scene : scenes) {
+        const Target target(options, scene);
+        Bench bench(target);
+        const std::string& name = bench.welcome().scene.name;
+        say("effects: " + name);
+        rows.push_back(measure(bench, name, "", bench_options.frames));
+        if (!bench_options.leave_one_in || rows.size() > 1)
+            continue;
+        for (const std::string& effect : lacking(bench)) {
+            say("effects: " + name + " with " + effect);
+            left_in.push_back(measure(bench, effect, effect, bench_options.frames));
+        }
+    }
+    if (bench_options.json) {
+        nlohmann::json json{{"scenes", nlohmann::json::array()}};
+        for (const Row& row : rows)
+            json["scenes"].push_back(to_json(row));
+        for (const Row& row : left_in)
+            json["leave_one_in"].push_back(to_json(row));
+        print_json(json);
+    } else {
+        print_scenes(rows);
+        if (!left_in.empty())
+            print_leave_one_in(left_in, rows.front().name);
+    }
+    return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.too_slow(); })
+        ? kFailed
+        : kDone;
+}
+
+}  // namespace farlight::client
