@@ -32,6 +32,16 @@ function toggle(setting, ids, change) {
     return { node: input, show: (value) => { input.checked = value; } };
 }
 
+function text(setting, ids, change) {
+    const input = element("input", { type: "text", id: ids.control, className: "text", spellcheck: false, "aria-describedby": ids.help });
+    const show = (value) => {
+        if (document.activeElement !== input)
+            input.value = value;
+    };
+    input.addEventListener("change", () => change(input.value)); // the server says so if it is not to be had
+    return { node: input, show };
+}
+
 function slider(setting, ids, change) {
     const stops = stopsOf(setting);
     const range = element("input", {
@@ -64,7 +74,7 @@ function controlFor(setting) {
         const letters = setting.choices.join("").length;
         return setting.choices.length <= MOST_SEGMENTS && letters <= MOST_LETTERS ? segments : list;
     }
-    return setting.type === "boolean" ? toggle : slider;
+    return { boolean: toggle, text }[setting.type] ?? slider;
 }
 
 /** The row of one setting: {node, show(value), complain(text)}. `change(value)` asks the server for another value. */
