@@ -78,14 +78,14 @@ FrameGraph::FrameGraph(ProgramCache& programs, bool software, bool strict)
 
 void FrameGraph::begin_frame(Extent extent, std::vector<BlockInput> blocks)
 {
-    if (extent != extent_) {
+    for (Resource& resource : resources_)
+        if (resource.kept && resource.transient && resource.texture != nullptr)
+            pool_.push_back(std::move(resource.texture));
+    if (extent != extent_) {  // after the last frame's have come back, or they would be used again
         histories_.clear();
         pool_.clear();
         extent_ = extent;
     }
-    for (Resource& resource : resources_)
-        if (resource.kept && resource.transient && resource.texture != nullptr)
-            pool_.push_back(std::move(resource.texture));
     for (auto& [name, pair] : histories_) {
         pair.written_last_frame = pair.resource_current >= 0
             && resources_[static_cast<std::size_t>(pair.resource_current)].written;
