@@ -8,8 +8,8 @@
 namespace farlight {
 
 /// Throws SceneError for the innermost value that breaks `schema_text`. What was expected is the
-/// `description` of the schema's part that the value stands under: every part of it has one. It is read
-/// once and must stay where it is.
+/// `description` of the schema's part that the value stands under: every part of it has one. It is
+/// read once and must stay where it is.
 void check_schema(
     const nlohmann::json& document, std::string_view schema_text, const std::string& file);
 

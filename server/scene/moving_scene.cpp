@@ -2,6 +2,7 @@
 #include "server/scene/moving_scene.h"
 
 #include "server/scene/instance_transform.h"
+#include "server/scene/pack_geometry.h"
 #include "shaders/shared/scene_layout.h"
 
 #include <algorithm>
@@ -135,7 +136,7 @@ void MovingScene::pack_instance(std::size_t i)
         std::span(instance_texels_).subspan(i * INSTANCE_TEXELS, INSTANCE_TEXELS);
     pack_rows(glm::inverse(m), texels.subspan(INSTANCE_OBJECT_FROM_WORLD));
     texels[INSTANCE_IDS] = {
-        instance.root, instance.object, scene_.objects[instance.object].material, instance.light};
+        instance.root, instance.object, material_word(scene_, instance.object), instance.light};
     pack_rows(m, texels.subspan(INSTANCE_WORLD_FROM_OBJECT));
     const bool mirrored = glm::determinant(glm::dmat3(m)) < 0;
     texels[INSTANCE_SCALE] = {

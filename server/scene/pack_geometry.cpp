@@ -88,6 +88,13 @@ glm::uvec4 pack_tangents(const std::vector<glm::vec4>& tangents, const glm::uvec
     return packed;
 }
 
+std::uint32_t material_word(const Scene& scene, std::uint32_t object)
+{
+    const std::uint32_t material = scene.objects[object].material;
+    const bool holes = scene.materials[material].alpha_mode != AlphaMode::kOpaque;
+    return material | (holes ? MATERIAL_HAS_HOLES : 0);
+}
+
 GeometryPacker::GeometryPacker(
     const Scene& scene, const FlatScene& flat, const WantedAttributes& wanted)
     : scene_(scene)
@@ -117,7 +124,7 @@ void GeometryPacker::pack_triangle(const FlatTriangle& triangle)
 {
     const auto& [a, b, c] = triangle.vertices;
     packed_.triangles.push_back(texel(a, triangle.object));
-    packed_.triangles.push_back(texel(b, scene_.objects[triangle.object].material));
+    packed_.triangles.push_back(texel(b, material_word(scene_, triangle.object)));
     packed_.triangles.push_back(texel(c, triangle.light));
     pack_attributes(triangle);
 }
@@ -165,14 +172,14 @@ void GeometryPacker::pack_sphere(const FlatSphere& sphere)
 {
     packed_.spheres.push_back(texel(sphere.center, bits(sphere.radius)));
     packed_.spheres.emplace_back(
-        sphere.object, scene_.objects[sphere.object].material, sphere.light, 0);
+        sphere.object, material_word(scene_, sphere.object), sphere.light, 0);
 }
 
 void GeometryPacker::pack_disk(const FlatDisk& disk)
 {
     packed_.disks.push_back(texel(disk.center, bits(disk.radius)));
     packed_.disks.push_back(texel(disk.normal, 0));
-    packed_.disks.emplace_back(disk.object, scene_.objects[disk.object].material, disk.light, 0);
+    packed_.disks.emplace_back(disk.object, material_word(scene_, disk.object), disk.light, 0);
 }
 
 }  // namespace farlight

@@ -50,6 +50,9 @@ private:
     PackedGeometry packed_;
 };
 
+/// What names the object's material in the tables: its index, and MATERIAL_HAS_HOLES.
+std::uint32_t material_word(const Scene& scene, std::uint32_t object);
+
 /// One texel: a triangle's shading normals in its group's space.
 glm::uvec4 pack_normals(const std::vector<glm::vec3>& normals, const glm::uvec3& corners,
     const glm::mat3& group_from_normal);

@@ -66,6 +66,7 @@ void main()
         return;
     const PrimaryRay primary = primary_ray(px);
     const Ray ray = ray_of(primary);
+    cover_by(uvec2(px), frame.seed, frame.first_sample, PRIMARY_BOUNCE, SLOT_COVERAGE);
     const Hit hit = closest_hit(ray, T_INFINITY);
     const bool met = hit.slot != NO_HIT;
     const Surface s = surface_at(hit, ray);

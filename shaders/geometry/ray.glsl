@@ -36,6 +36,7 @@ struct Traversal {
 #ifdef FX_INSTANCES
     uint instance;  // whose space this is (geometry/instances.glsl)
     float stretch;  // length of the direction; exactly 1 in the world
+    uint material;  // the instance's, with MATERIAL_HAS_HOLES
 #endif
     vec3 shear;              // of Woop's test: x and y by z, and 1 / z of the permuted direction
     int axis;                // along which the direction is longest
@@ -52,6 +53,7 @@ Traversal prepare(Ray ray)
 #ifdef FX_INSTANCES
     t.instance = 0u;
     t.stretch = 1.0;
+    t.material = 0u;
 #endif
     const vec3 d = ray.direction;
     // 1e-30 of a unit vector's length: only what 1 / d cannot represent.
@@ -88,34 +90,34 @@ float intersect_triangle(Traversal ray, vec3 v0, vec3 v1, vec3 v2, float t_max, 
     return !outside && determinant != 0.0 && t > 0.0 && t < t_max ? t : -1.0;
 }
 
-// Distance to a sphere, or a negative number; the first of its two sides ahead of the origin.
+// Distance to a sphere's first side beyond t_min, or a negative number. t_min is 0 or what this returned before.
 //
 // Source: Haines, Günther, Akenine-Möller 2019, "Precision Improvements for Ray/Sphere Intersection",
 // Ray Tracing Gems, chapter 7: the discriminant from the rejection vector, the roots without cancellation.
-float intersect_sphere(Traversal ray, vec3 center, float radius, float t_max)
+float intersect_sphere(Traversal ray, vec3 center, float radius, float t_min, float t_max)
 {
+    vec3 direction = ray.direction;
 #ifdef FX_INSTANCES
-    ray.direction /= ray.stretch;
-    t_max *= ray.stretch;
+    direction /= ray.stretch;
 #endif
     precise const vec3 f = ray.origin - center;
-    precise const float b = -dot(f, ray.direction);
-    precise const vec3 rejection = f + b * ray.direction;
+    precise const float b = -dot(f, direction);
+    precise const vec3 rejection = f + b * direction;
     precise const float discriminant = radius * radius - dot(rejection, rejection);
     if (!(discriminant >= 0.0))
         return -1.0;
     precise const float c = dot(f, f) - radius * radius;
     precise const float q = b + (b >= 0.0 ? sqrt(discriminant) : -sqrt(discriminant));
-    const float other = q != 0.0 ? c / q : 0.0;  // q = 0: the ray grazes the sphere where it starts
-    const float t_a = min(q, other);
-    const float t_b = max(q, other);
-    const float t = t_a > 0.0 ? t_a : t_b;
-    const bool met = t > 0.0 && t < t_max;
+    float other = q != 0.0 ? c / q : 0.0;  // q = 0: the ray grazes the sphere where it starts
+    float one = q;
 #ifdef FX_INSTANCES
-    return met ? t / ray.stretch : -1.0;
-#else
-    return met ? t : -1.0;
+    one /= ray.stretch;
+    other /= ray.stretch;
 #endif
+    const float t_a = min(one, other);
+    const float t_b = max(one, other);
+    const float t = t_a > t_min ? t_a : t_b;
+    return t > t_min && t < t_max ? t : -1.0;
 }
 
 // Distance to a disk, or a negative number. Seen edge-on it is not met.

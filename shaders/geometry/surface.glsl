@@ -243,6 +243,9 @@ Surface surface_at(Hit hit, Ray ray)
     if (placed)
         place_in_world(hit.instance, s);
 #endif
+#ifdef FX_ALPHA
+    s.material &= ~MATERIAL_HAS_HOLES;
+#endif
     face_the_ray(ray, s);
     return s;
 }

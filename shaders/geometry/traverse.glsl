@@ -7,6 +7,7 @@
 // Box test: Williams et al. 2005, "An Efficient and Robust Ray-Box Intersection Algorithm"; the far side is
 // widened by 3 ulp after Ize 2013, "Robust BVH Ray Traversal", so that rounding never loses a box.
 #pragma once
+#include "geometry/coverage.glsl"
 #include "geometry/instances.glsl"
 #include "geometry/ray.glsl"
 #include "geometry/scene.glsl"
@@ -53,7 +54,34 @@ void record(inout Hit hit, Traversal ray, float t, uint slot, vec2 barycentric)
 #endif
 }
 
-void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
+// A hit of something with holes, to be looked into before it counts.
+struct Candidate {
+    bool waits;
+#ifdef FX_ALPHA
+    Hit hit;
+    uint material;
+    vec3 normal;   // of a sphere
+    float passed;  // along the ray, of the primitive being tested
+#endif
+};
+
+// Takes what the ray met as the nearest hit, or as a candidate for it. `material` as the primitive names it.
+void accept(inout Hit hit, inout Candidate candidate, Traversal ray, float t, uint slot, vec2 barycentric, uint material)
+{
+#ifdef FX_ALPHA
+#ifdef FX_INSTANCES
+    material = ray.instance != NO_INSTANCE ? ray.material : material;
+#endif
+    candidate.waits = (material & MATERIAL_HAS_HOLES) != 0u;
+    candidate.material = material & ~MATERIAL_HAS_HOLES;
+    record(candidate.hit, ray, t, slot, barycentric);
+    if (candidate.waits)
+        return;
+#endif
+    record(hit, ray, t, slot, barycentric);
+}
+
+void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout Candidate candidate)
 {
     const uint slot = (leaf & (BVH_KIND_MASK | BVH_FIRST_MASK)) + k;
     const int place = int(slot & BVH_FIRST_MASK);
@@ -61,20 +89,31 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
 #ifdef FX_TRIANGLES
     {
         const int at = place * TRIANGLE_TEXELS;
+        const uvec4 b = texelFetch(triangles, at + 1);
         vec2 barycentric;
-        const float t = intersect_triangle(ray, uintBitsToFloat(texelFetch(triangles, at).xyz),
-            uintBitsToFloat(texelFetch(triangles, at + 1).xyz), uintBitsToFloat(texelFetch(triangles, at + 2).xyz),
-            hit.t, barycentric);
+        const float t = intersect_triangle(ray, uintBitsToFloat(texelFetch(triangles, at).xyz), uintBitsToFloat(b.xyz),
+            uintBitsToFloat(texelFetch(triangles, at + 2).xyz), hit.t, barycentric);
         if (t > 0.0 && kind == BVH_TRIANGLES)
-            record(hit, ray, t, slot, barycentric);
+            accept(hit, candidate, ray, t, slot, barycentric, b.w);
     }
 #endif
 #ifdef FX_SPHERES
     {
         const vec4 sphere = uintBitsToFloat(texelFetch(spheres, place * SPHERE_TEXELS));
-        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, hit.t);
-        if (t > 0.0 && kind == BVH_SPHERES)
-            record(hit, ray, t, slot, vec2(0.0));
+#ifdef FX_ALPHA
+        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, candidate.passed, hit.t);
+        const uint material = texelFetch(spheres, place * SPHERE_TEXELS + 1).y;
+        const vec3 normal = normalize(ray.origin + t * ray.direction - sphere.xyz);
+#else
+        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, 0.0, hit.t);
+        const uint material = 0u;
+#endif
+        if (t > 0.0 && kind == BVH_SPHERES) {
+            accept(hit, candidate, ray, t, slot, vec2(0.0), material);
+#ifdef FX_ALPHA
+            candidate.normal = normal;
+#endif
+        }
     }
 #endif
 #ifdef FX_DISKS
@@ -82,8 +121,13 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit)
         const vec4 disk = uintBitsToFloat(texelFetch(disks, place * DISK_TEXELS));
         const vec3 normal = uintBitsToFloat(texelFetch(disks, place * DISK_TEXELS + 1).xyz);
         const float t = intersect_disk(ray, disk.xyz, normal, disk.w, hit.t);
+#ifdef FX_ALPHA
+        const uint material = texelFetch(disks, place * DISK_TEXELS + 2).y;
+#else
+        const uint material = 0u;
+#endif
         if (t > 0.0 && kind == BVH_DISKS)
-            record(hit, ray, t, slot, vec2(0.0));
+            accept(hit, candidate, ray, t, slot, vec2(0.0), material);
     }
 #endif
 }
@@ -102,7 +146,19 @@ Traversal prepare_in(uint instance, Ray ray)
     Traversal t = prepare(local);
     t.instance = instance;
     t.stretch = length(local.direction);
+    t.material = instance_ids(instance).z;
     return t;
+}
+#endif
+
+#ifdef FX_ALPHA
+bool is_covered(Candidate c, Traversal ray)
+{
+#ifdef FX_INSTANCES
+    return is_covered(c.hit, ray.instance, c.material, c.normal, c.passed);
+#else
+    return is_covered(c.hit, NO_INSTANCE, c.material, c.normal, c.passed);
+#endif
 }
 #endif
 
@@ -124,7 +180,17 @@ Hit traverse(Ray r, float t_max, const bool first_hit_ends)
     uint stack[BVH_STACK_SIZE];
     int depth = 0;
     uint node = t_max > 0.0 ? 0u : BVH_NO_CHILD;
-    // A loop around the loops: every lane that still runs has come to where it changes space before any does.
+    uint k = 0u;  // next primitive of the leaf `node`
+    Candidate candidate;
+    candidate.waits = false;
+#ifdef FX_ALPHA
+    candidate.hit = hit;
+    candidate.material = 0u;
+    candidate.normal = vec3(0.0);
+    candidate.passed = 0.0;
+#endif
+    // A loop around the loops, for what is rare: every lane that still runs has come to where it changes space or has
+    // to look into a candidate before any does.
     do {
         do {
             do {
@@ -149,14 +215,36 @@ Hit traverse(Ray r, float t_max, const bool first_hit_ends)
             } while (node < BVH_NO_CHILD);
 
             if (holds_primitives(node)) {
-                uint k = 0u;
                 do {
-                    intersect_primitive(ray, node, k, hit);
-                } while (++k < leaf_count(node));
-                const bool ended = first_hit_ends && hit.slot != NO_HIT;
-                node = depth > 0 && !ended ? stack[--depth] : BVH_NO_CHILD;
+                    intersect_primitive(ray, node, k, hit, candidate);
+                    ++k;
+#ifdef FX_ALPHA
+                    candidate.passed = candidate.waits ? candidate.passed : 0.0;
+#endif
+                } while (k < leaf_count(node) && !candidate.waits);
+                if (!candidate.waits) {
+                    const bool ended = first_hit_ends && hit.slot != NO_HIT;
+                    node = depth > 0 && !ended ? stack[--depth] : BVH_NO_CHILD;
+                    k = 0u;
+                }
             }
-        } while (holds_primitives(node) || node < BVH_NO_CHILD);
+        } while ((holds_primitives(node) || node < BVH_NO_CHILD) && !candidate.waits);
+#ifdef FX_ALPHA
+        const bool covered = is_covered(candidate, ray);
+        if (candidate.waits) {
+            candidate.waits = false;
+            if (covered)
+                hit = candidate.hit;
+            // What lies behind the near side of a sphere is its far side.
+            const bool again = !covered && candidate.passed == 0.0 && (candidate.hit.slot & BVH_KIND_MASK) == BVH_SPHERES;
+            candidate.passed = again ? candidate.hit.t : 0.0;
+            k -= again ? 1u : 0u;
+            if (k == leaf_count(node) || (first_hit_ends && covered)) {
+                node = depth > 0 && !(first_hit_ends && covered) ? stack[--depth] : BVH_NO_CHILD;
+                k = 0u;
+            }
+        }
+#endif
 #ifdef FX_INSTANCES
         const bool leaves = node == LEAVE_INSTANCE;
         const bool enters = changes_space(node) && !leaves;

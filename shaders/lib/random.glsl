@@ -9,7 +9,12 @@ const uint SLOT_BSDF = 1u;   // direction (xy), Russian roulette (z), lobe (w)
 const uint SLOT_LENS = 2u;   // point on the aperture (xy)
 const uint SLOT_FOG = 3u;    // distance (xy)
 const uint SLOT_TEXTURE = 4u;  // texel (xyz)
+const uint SLOT_COVERAGE = 5u;  // whether a blend stops the ray that scattering sends on, with the primitive's number
+const uint SLOT_SHADOW_COVERAGE = 6u;  // likewise, the ray to a light
 const uint SLOTS = 8u;
+
+// The bounce of rays from the camera, beyond any other.
+const uint PRIMARY_BOUNCE = 255u;
 
 // Bounces of a path that starts in the fog before the first surface count from here, above any path's from there.
 const uint FOG_PATH_BOUNCE = 64u;
@@ -29,9 +34,14 @@ uvec4 pcg4d(uvec4 v)
     return v;
 }
 
-// Four independent uniform numbers in [0, 1). `sample_index` counts a pixel's samples over all frames.
+// What the four numbers of a slot are hashed from. `sample_index` counts a pixel's samples over all frames.
+uvec4 random_key(uvec2 px, uint seed, uint sample_index, uint bounce, uint slot)
+{
+    return uvec4(px.x, px.y ^ (seed * 0x9e3779b9u), sample_index, bounce * SLOTS + slot);
+}
+
+// Four independent uniform numbers in [0, 1).
 vec4 random4(uvec2 px, uint seed, uint sample_index, uint bounce, uint slot)
 {
-    const uvec4 hash = pcg4d(uvec4(px.x, px.y ^ (seed * 0x9e3779b9u), sample_index, bounce * SLOTS + slot));
-    return vec4(hash >> 8u) * exp2(-24.0);
+    return vec4(pcg4d(random_key(px, seed, sample_index, bounce, slot)) >> 8u) * exp2(-24.0);
 }

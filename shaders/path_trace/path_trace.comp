@@ -97,6 +97,7 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
         const bool first = segment == 2;
         Scattered light = Scattered(vec3(0.0), vec3(0.0), 0.0);
 #ifdef FX_LIGHTS
+        cover_by(px, frame.seed, sample_index, bounce_index, SLOT_SHADOW_COVERAGE);
         if (light_sampling != 0)
             light = sample_direct(v, random4(px, frame.seed, sample_index, bounce_index, SLOT_LIGHT));
 #endif
@@ -132,6 +133,7 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
 
         alive = alive && max_component(weight) > 0.0 && max_component(throughput) > 0.0;
         const Ray ray = Ray(leave(v, bounce.wi), bounce.wi);
+        cover_by(px, frame.seed, sample_index, bounce_index, SLOT_COVERAGE);
         const Hit hit = closest_hit(ray, alive ? T_INFINITY : 0.0);
         const bool met = hit.slot != NO_HIT;
         const Surface s = surface_at(hit, ray);

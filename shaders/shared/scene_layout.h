@@ -103,6 +103,9 @@
 #define MAP_CLEARCOAT_NORMAL 9
 #define MATERIAL_MAP_SHIFT 16
 
+// Beside the index of a material wherever a primitive or an instance names one: it has holes (FX_ALPHA).
+#define MATERIAL_HAS_HOLES 0x80000000u
+
 // Flags of a material.
 #define MATERIAL_EMITS_BOTH_SIDES 1u
 #define MATERIAL_UNLIT 2u

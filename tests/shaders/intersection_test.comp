@@ -11,7 +11,7 @@ float triangle(vec3 origin, vec3 direction, vec3 a, vec3 b, vec3 c)
 
 float sphere(vec3 origin, vec3 direction, float radius)
 {
-    return intersect_sphere(prepare(Ray(origin, direction)), vec3(0.0), radius, T_INFINITY);
+    return intersect_sphere(prepare(Ray(origin, direction)), vec3(0.0), radius, 0.0, T_INFINITY);
 }
 
 void test_triangle()

@@ -1,0 +1,154 @@
+// Surfaces with holes: how much light a blend lets through in closed form, and which pixels a mask
+// cuts out.
+//
+// Statistical tests use fixed seeds; the bounds are 5 standard errors, which a fresh seed would
+// exceed by chance once in 1.7 million.
+#include "tests/support/gl_test.h"
+#include "tests/support/statistics.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace farlight {
+namespace {
+
+constexpr Extent kExtent{48, 32};
+
+/// Black and with holes; it fills the picture from (0, 0, 0) facing +z.
+Scene black_veil(float opacity)
+{
+    Scene scene;
+    Material veil{"veil", glm::vec3(0)};
+    veil.alpha_mode = AlphaMode::kBlend;
+    veil.opacity = opacity;
+    scene.materials.push_back(veil);
+    scene.background = glm::vec3(1);
+    scene.camera = {{0, 0, 2}, {0, 0, 0}, {0, 1, 0}, 45};
+    return scene;
+}
+
+Estimate mean_picture(const Scene& scene, int frames, double time = 0)
+{
+    const TestScene on_device(scene);
+    RenderSettings settings;
+    settings.denoiser = Denoiser::kAccumulate;
+    settings.antialiasing = false;
+    settings.play = false;
+    View view(on_device.shared);
+    RenderRequest request = linear_request(on_device.scene, kExtent, settings);
+    request.time = time;
+    RenderedFrame frame;
+    for (int i = 0; i < frames; ++i)
+        frame = view.render(request);
+    EXPECT_EQ(frame.nonfinite_count, 0U);
+    return mean_of(frame.image);
+}
+
+struct Shape {
+    const char* name;
+    Object object;
+    int sides;  ///< That a ray through the middle crosses.
+    bool moves;
+
+    friend void PrintTo(const Shape& shape, std::ostream* out) { *out << shape.name; }
+};
+
+class BlendTest : public GlTest, public testing::WithParamInterface<Shape> { };
+
+/// Each side lets through what its opacity does not stop, independently of every other.
+TEST_P(BlendTest, LetsThroughWhatItsOpacityLeaves)
+{
+    const auto& [name, object, sides, moves] = GetParam();
+    Scene scene = black_veil(0.3F);
+    scene.objects.push_back(object);
+    if (moves) {
+        Node node;
+        node.scale = {2, 2, 2};
+        scene.animation.nodes.push_back(node);
+        Track track;
+        track.times = {0, 1};
+        track.values = {0, 0, 0, 0, 0, -0.5F};
+        scene.animation.tracks.push_back(track);
+        scene.objects[0].node = 0;
+    }
+    const Estimate mean = mean_picture(scene, 64, moves ? 0.5 : 0);
+    EXPECT_NEAR(mean.mean, std::pow(0.7, sides), 5 * mean.standard_error);
+    EXPECT_LT(mean.standard_error, 0.004);
+}
+
+const Quad kWide{{-4, -4, 0}, {8, 0, 0}, {0, 8, 0}};
+
+INSTANTIATE_TEST_SUITE_P(Shapes, BlendTest,
+    testing::Values(Shape{"Quad", {"quad", 0, kWide}, 1, false},
+        Shape{"Disk", {"disk", 0, Disk{{0, 0, 0}, {0, 0, 1}, 4}}, 1, false},
+        Shape{"Sphere", {"sphere", 0, Sphere{{0, 0, -9}, 8.5}}, 2, false},
+        Shape{"SphereFromInside", {"sphere", 0, Sphere{{0, 0, 0}, 5}}, 1, false},
+        Shape{"MovingQuad", {"quad", 0, kWide}, 1, true},
+        Shape{"MovingSphere", {"sphere", 0, Sphere{{0, 0, -9}, 8.5}}, 2, true}),
+    [](const auto& test) { return test.param.name; });
+
+TEST_F(BlendTest, TwoVeilsStopIndependently)
+{
+    Scene scene = black_veil(0.4F);
+    scene.objects.push_back({"near", 0, kWide});
+    scene.objects.push_back({"far", 0, Quad{{-9, -9, -1}, {18, 0, 0}, {0, 18, 0}}});
+    const Estimate mean = mean_picture(scene, 64);
+    EXPECT_NEAR(mean.mean, 0.36, 5 * mean.standard_error);
+}
+
+/// A white floor under a veil: the sun reaches it through the veil, and the camera sees it below.
+TEST_F(BlendTest, ShadowsAreAsDeepAsTheVeilIsDense)
+{
+    const auto lit = [](bool veiled) {
+        Scene scene = black_veil(0.6F);
+        scene.background = glm::vec3(0);
+        scene.materials.push_back({"floor", glm::vec3(0.5F)});
+        scene.objects.push_back({"floor", 1, Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}});
+        if (veiled)
+            scene.objects.push_back({"veil", 0, Quad{{-20, 3, 20}, {40, 0, 0}, {0, 0, -40}}});
+        PunctualLight sun;
+        sun.kind = PunctualLight::Kind::kDirectional;
+        sun.intensity = glm::vec3(3);
+        sun.direction = glm::normalize(glm::dvec3(0.3, -1, 0.1));
+        scene.lights.push_back(sun);
+        scene.camera = {{0, 1, 1}, {0, 0, 0}, {0, 1, 0}, 30};
+        return mean_picture(scene, 64);
+    };
+    const Estimate veiled = lit(true);
+    EXPECT_NEAR(veiled.mean / lit(false).mean, 0.4, 5 * veiled.standard_error);
+    EXPECT_LT(veiled.standard_error, 0.004);
+}
+
+/// A checkerboard mask: a pixel is black or white as its point's texel says, in every frame.
+TEST_F(BlendTest, AMaskCutsWhereItsTextureSays)
+{
+    Scene scene = black_veil(1);
+    scene.images.push_back({"holes", 2, 2,
+        {glm::u8vec4(255, 255, 255, 200), glm::u8vec4(255, 255, 255, 60),
+            glm::u8vec4(255, 255, 255, 60), glm::u8vec4(255, 255, 255, 200)}});
+    Material& veil = scene.materials[0];
+    veil.alpha_mode = AlphaMode::kMask;
+    veil.alpha_cutoff = 0.5F;
+    veil.albedo_texture.image = 0;
+    veil.albedo_texture.nearest = true;
+    scene.objects.push_back({"quad", 0, Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}});
+    const TestScene on_device(scene);
+    RenderSettings settings;
+    settings.denoiser = Denoiser::kOff;
+    settings.antialiasing = false;
+    View view(on_device.shared);
+    const RenderRequest request = linear_request(on_device.scene, kExtent, settings);
+    const Image image = view.render(request).image;
+    const double half_height = std::tan(glm::radians(22.5)) * 2;
+    for (int y = 0; y < kExtent.height; ++y)
+        for (int x = 0; x < kExtent.width; ++x) {
+            const double py = (1 - 2 * (y + 0.5) / kExtent.height) * half_height;
+            const double px =
+                (2 * (x + 0.5) / kExtent.width - 1) * half_height * kExtent.width / kExtent.height;
+            const bool on_quad = std::abs(px) < 1 && std::abs(py) < 1;
+            const bool solid = on_quad && (px < 0) == (py > 0);
+            EXPECT_EQ(pixel(image, x, y).x, solid ? 0 : 1) << x << "," << y;
+        }
+}
+
+}  // namespace
+}  // namespace farlight
