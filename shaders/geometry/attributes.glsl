@@ -21,9 +21,12 @@ vec3 interpolated_normal(int triangle, vec3 weights, vec3 geometric_normal)
 #endif
 
 #ifdef FX_TEXTURES
+// `precise`: masks decide by it what a ray meets.
 vec2 interpolated_uv(uvec4 a, uvec4 b, vec3 weights)
 {
-    return weights.x * uintBitsToFloat(a.xy) + weights.y * uintBitsToFloat(a.zw) + weights.z * uintBitsToFloat(b.xy);
+    precise const vec2 uv
+        = weights.x * uintBitsToFloat(a.xy) + weights.y * uintBitsToFloat(a.zw) + weights.z * uintBitsToFloat(b.xy);
+    return uv;
 }
 
 void interpolated_uvs(int triangle, vec3 weights, out vec2 uv[2], out vec2 log2_uv_per_metre)

@@ -25,9 +25,15 @@ vec3 light_texture(Light light, vec2 st, vec2 jitter)
     const float finest = -1e30;
     const vec3 radiance
         = texture_stochastic(emission, interpolated_uv(a.xy, a.zw, b.xy, st), finest, vec3(jitter, 0.0)).rgb;
-    const float alpha
-        = cover.x * texture_stochastic(opacity, interpolated_uv(b.zw, c.xy, c.zw, st), finest, vec3(jitter, 0.0)).a;
-    const float there = cover.y < 0.0 ? alpha : alpha >= cover.y ? 1.0 : 0.0;
+    float there = 1.0;
+#ifdef FX_ALPHA
+    // As geometry/coverage.glsl decides where a ray meets the light.
+    const bool mask = cover.y >= 0.0;
+    const vec2 uv = interpolated_uv(b.zw, c.xy, c.zw, st);
+    const float filtered = cover.x * texture_filtered(opacity, uv, finest).a;
+    const float one_texel = cover.x * texture_stochastic(opacity, uv, finest, vec3(jitter, 0.0)).a;
+    there = mask ? (filtered >= cover.y ? 1.0 : 0.0) : one_texel;
+#endif
     return light.texture_index != 0u ? radiance * there : vec3(1.0);
 }
 #elif defined(FX_LIGHTS)

@@ -279,11 +279,23 @@ constexpr double kLeftHalf = 0.2833226;
 
 INSTANTIATE_TEST_SUITE_P(Lights, PatternTest,
     testing::Values(PatternCase{"TexturedEmission", kLeftHalf,
-        [](Scene& s) {
-            s.images.push_back(half({255, 255, 255, 255}, {0, 0, 0, 255}));
-            s.materials[1].emission_texture.image = 0;
-            s.materials[1].emission_texture.wrap_u = Wrap::kClamp;
-        }}),
+                        [](Scene& s) {
+                            s.images.push_back(half({255, 255, 255, 255}, {0, 0, 0, 255}));
+                            s.materials[1].emission_texture.image = 0;
+                            s.materials[1].emission_texture.wrap_u = Wrap::kClamp;
+                        }},
+        PatternCase{"HalfOpaque", 0.5 * 0.43520988,
+            [](Scene& s) {
+                s.materials[1].alpha_mode = AlphaMode::kBlend;
+                s.materials[1].opacity = 0.5F;
+            }},
+        PatternCase{"HalfCutOut", kLeftHalf,
+            [](Scene& s) {
+                s.images.push_back(half({255, 255, 255, 255}, {255, 255, 255, 0}));
+                s.materials[1].alpha_mode = AlphaMode::kMask;
+                s.materials[1].albedo_texture.image = 0;
+                s.materials[1].albedo_texture.wrap_u = Wrap::kClamp;
+            }}),
     [](const auto& test) { return test.param.name; });
 
 /// Several kinds at once, side by side: irradiances add up.
