@@ -4,6 +4,7 @@
 // Statistical tests use fixed seeds; the bounds are 5 standard errors, which a fresh seed would
 // exceed by chance once in 1.7 million.
 #include "tests/support/gl_test.h"
+#include "tests/support/moving_scenes.h"
 #include "tests/support/statistics.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -148,6 +149,100 @@ TEST_F(BlendTest, AMaskCutsWhereItsTextureSays)
             const bool solid = on_quad && (px < 0) == (py > 0);
             EXPECT_EQ(pixel(image, x, y).x, solid ? 0 : 1) << x << "," << y;
         }
+}
+
+/// White things under a white sky, half there: metal, plastic, glass, one on a node that moves.
+Scene half_there()
+{
+    Scene scene = black_veil(0.5F);
+    Material& cloth = scene.materials[0];
+    cloth.albedo = glm::vec3(1);
+    Material metal = cloth;
+    metal.metallic = 1;
+    metal.roughness = 0.4F;
+    Material glass = cloth;
+    glass.transmission = 1;
+    glass.specular = 1;
+    glass.roughness = 0;
+    scene.materials.push_back(metal);
+    scene.materials.push_back(glass);
+    scene.objects.push_back({"curtain", 0, Quad{{-3, -2, 0.8}, {6, 0, 0.3}, {0, 4, -0.2}}});
+    scene.objects.push_back({"metal", 1, Sphere{{-0.7, 0, 0}, 0.6}});
+    scene.objects.push_back({"glass", 2, Sphere{{0.7, 0, 0}, 0.6}});
+    scene.objects.push_back({"coin", 1, Disk{{0, -0.9, 0.2}, {0, 0.8, 0.6}, 0.8}});
+    scene.camera.position = {0, 0, 4};
+    hang_on_nodes(
+        scene, [](std::size_t) { return glm::dmat4(1); }, true);
+    return scene;
+}
+
+/// What holes let through and what is met instead is all the light there is: nothing is lost,
+/// counted twice or caught, inside glass that was entered through a hole too.
+TEST_F(BlendTest, WhiteThingsThatAreHalfThereVanish)
+{
+    const TestScene on_device(half_there());
+    RenderRequest request = linear_request(on_device.scene, kExtent, {});
+    request.settings.denoiser = Denoiser::kAccumulate;
+    request.settings.max_depth = request.settings.roulette_depth = 48;
+    request.settings.samples_per_pixel = 16;
+    request.settings.play = false;
+    request.time = 1;
+    View view(on_device.shared);
+    RenderedFrame frame;
+    for (int i = 0; i < 4; ++i)
+        frame = view.render(request);
+    EXPECT_EQ(frame.nonfinite_count, 0U);
+    const Estimate mean = mean_of(frame.image);
+    // 2e-3: the albedo tables of rough metal.
+    EXPECT_NEAR(mean.mean, 1, 5 * mean.standard_error + 2e-3);
+    EXPECT_LT(mean.standard_error, 2e-3);
+}
+
+/// Through a hole a thing is what it is without anything in front, its motion too.
+TEST_F(BlendTest, ThroughHolesThingsAreAsWithNothingInFront)
+{
+    const auto picture = [](const TestScene& on_device, DebugView which) {
+        RenderRequest request = linear_request(on_device.scene, kExtent, {});
+        request.settings.view = which;
+        View view(on_device.shared);
+        request.time = 0.3;
+        view.render(request);
+        request.time = 0.7;
+        request.camera.position.x += 0.1;
+        return view.render(request).image;
+    };
+    Scene open = half_there();
+    for (Material& material : open.materials)
+        material.alpha_mode = AlphaMode::kOpaque;
+    open.objects.erase(open.objects.begin());  // the curtain, which is to hang in front
+    Scene veiled = open;
+    veiled.materials.push_back({"lattice", glm::vec3(0)});
+    veiled.materials.back().alpha_mode = AlphaMode::kMask;
+    veiled.materials.back().albedo_texture.image = 0;
+    veiled.images.push_back({"holes", 2, 1, {{255, 255, 255, 0}, {255, 255, 255, 255}}});
+    veiled.objects.push_back({"lattice", 3, Quad{{-3, -2, 1.5}, {6, 0, 0}, {0, 4, 0}}});
+    const auto lattice = static_cast<float>(veiled.objects.size() - 1);
+    const TestScene veiled_things(veiled);
+    const TestScene things(open);
+    const Image objects = picture(veiled_things, DebugView::kObjectId);
+    for (const DebugView which :
+        {DebugView::kObjectId, DebugView::kPosition, DebugView::kMotion, DebugView::kMaterialId}) {
+        const Image with = picture(veiled_things, which);
+        const Image without = picture(things, which);
+        int seen = 0;
+        int hidden = 0;
+        for (int y = 0; y < kExtent.height; ++y)
+            for (int x = 0; x < kExtent.width; ++x) {
+                const bool hole = pixel(objects, x, y).x != lattice;
+                hidden += hole ? 0 : 1;
+                if (!hole)
+                    continue;
+                ASSERT_EQ(pixel(with, x, y), pixel(without, x, y)) << x << "," << y;
+                seen += pixel(without, x, y) != glm::vec3(0) ? 1 : 0;
+            }
+        EXPECT_GT(seen, 50) << static_cast<int>(which);  // the first object's number is 0
+        EXPECT_GT(hidden, 400);
+    }
 }
 
 }  // namespace
