@@ -1,22 +1,13 @@
-// Checking declarations against programs, texture lifetimes, barriers, dispatch.
+// Texture lifetimes, barriers, dispatch.
 #include "server/render/frame_graph.h"
 
 #include "server/gl/gl_error.h"
 
 #include <algorithm>
 #include <cassert>
-#include <spdlog/spdlog.h>
 
 namespace farlight {
 namespace {
-
-/// The GLSL type a constant may be assigned to; booleans are ints in our shaders.
-GLenum glsl_type(const Constant& value)
-{
-    static constexpr GLenum kTypes[] = {
-        GL_INT, GL_UNSIGNED_INT, GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3};
-    return kTypes[value.index()];
-}
 
 std::size_t bytes_per_texel(GLenum format)
 {
@@ -31,47 +22,9 @@ std::size_t bytes_per_texel(GLenum format)
 
 }  // namespace
 
-Pass& Pass::define(const Defines& more)
-{
-    defines.insert(defines.end(), more.begin(), more.end());
-    return *this;
-}
-
-Pass& Pass::read(const char* variable, TextureHandle texture)
-{
-    assert(texture.index >= 0);
-    uses.push_back({variable, texture, false});
-    return *this;
-}
-
-Pass& Pass::write(const char* variable, TextureHandle texture)
-{
-    assert(texture.index >= 0);
-    uses.push_back({variable, texture, true});
-    return *this;
-}
-
-Pass& Pass::constant(const char* variable, Constant value)
-{
-    constants.emplace_back(variable, value);
-    return *this;
-}
-
-Pass& Pass::scene(const SceneInputs& inputs)
-{
-    scene_inputs = &inputs;
-    return define(inputs.defines);
-}
-
-Pass& Pass::dispatch(Extent over)
-{
-    domain = over;
-    return *this;
-}
-
 FrameGraph::FrameGraph(ProgramCache& programs, bool software, bool strict)
     : programs_(programs)
-    , strict_(strict)
+    , check_(strict)
     , timer_(software)
 {
 }
@@ -178,7 +131,7 @@ void FrameGraph::execute()
 void FrameGraph::run(const Pass& pass, int pass_index)
 {
     const Program& program = programs_.get(pass.shader, pass.defines);
-    check(pass, program);
+    check_(pass, program, blocks_);
     for (const Pass::Use& use : pass.uses) {
         Resource& resource = resources_[static_cast<std::size_t>(use.texture.index)];
         if (use.write)
@@ -246,62 +199,6 @@ void FrameGraph::place_barrier(const Pass& pass)
     dirty_.clear();
     read_.clear();
     ++barriers_;
-}
-
-void FrameGraph::complain(
-    const Pass& pass, const std::string& variable, const std::string& problem) const
-{
-    throw ShaderError(
-        "pass '" + pass.name + "': '" + variable + "' " + problem + " (" + pass.shader + ")");
-}
-
-/// Whether the pass gives `name` a value of the right kind and type.
-bool FrameGraph::declares(
-    const Pass& pass, const std::string& name, const UniformVariable& variable)
-{
-    const bool is_image = kind_of(variable.type) == VariableKind::kImage;
-    return std::any_of(pass.uses.begin(), pass.uses.end(), [&](const auto& use) {
-        return use.name == name && (!use.write || is_image);
-    }) || std::any_of(pass.constants.begin(), pass.constants.end(), [&](const auto& row) {
-        return row.first == name && glsl_type(row.second) == variable.type;
-    }) || (pass.scene_inputs != nullptr && pass.scene_inputs->buffers.contains(name));
-}
-
-bool FrameGraph::offers_block(const std::string& name) const
-{
-    return std::any_of(
-        blocks_.begin(), blocks_.end(), [&](const auto& block) { return block.name == name; });
-}
-
-/// Used by the shader but declared by nobody.
-void FrameGraph::check(const Pass& pass, const Program& program) const
-{
-    for (const auto& [name, variable] : program.uniforms())
-        if (!declares(pass, name, variable))
-            complain(pass, name, "is used by the shader but not declared with this kind and type");
-    for (const auto* block_map : {&program.uniform_blocks(), &program.storage_blocks()})
-        for (const auto& [name, binding] : *block_map)
-            if (!offers_block(name))
-                complain(pass, name, "is a block the shader uses but the frame does not offer");
-    check_declared(pass, program);
-}
-
-/// Declared by the pass but not active in the shader: a setting that reaches nothing.
-void FrameGraph::check_declared(const Pass& pass, const Program& program) const
-{
-    const auto check_name = [&](const std::string& name) {
-        if (program.uniforms().contains(name))
-            return;
-        if (strict_)
-            complain(pass, name, "is declared but the shader does not use it");
-        if (warned_.insert(pass.name + "/" + name).second)
-            spdlog::debug(
-                "pass '{}': '{}' is declared but not active in {}", pass.name, name, pass.shader);
-    };
-    for (const Pass::Use& use : pass.uses)
-        check_name(use.name);
-    for (const auto& row : pass.constants)
-        check_name(row.first);
 }
 
 void FrameGraph::bind_textures(const Pass& pass, const Program& program)

@@ -11,73 +11,20 @@
 #include "server/gl/gpu_timer.h"
 #include "server/gl/program_cache.h"
 #include "server/gl/texture.h"
+#include "server/render/declaration_check.h"
+#include "server/render/pass.h"
 
-#include <algorithm>
-#include <glm/glm.hpp>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
-#include <variant>
 #include <vector>
 
 namespace farlight {
-
-/// A texture of this frame, by its index in the graph.
-struct TextureHandle {
-    int index = -1;
-};
 
 struct History {
     TextureHandle previous;  ///< Last frame's `current`; anything when not `valid`.
     TextureHandle current;  ///< To be written this frame.
     bool valid = false;  ///< Last frame wrote it, at this size.
-};
-
-/// What the scene offers to passes that look into it: buffer textures, bound by name where a shader
-/// asks for them, and the macros such shaders are compiled with.
-struct SceneInputs {
-    std::map<std::string, GLuint, std::less<>> buffers;
-    Defines defines;
-
-    /// Whether the scene has the effect behind `macro`.
-    bool calls_for(std::string_view macro) const
-    {
-        return std::any_of(
-            defines.begin(), defines.end(), [&](const auto& row) { return row.first == macro; });
-    }
-};
-
-/// A uniform or storage block offered to every pass of the frame, bound where a shader asks for it.
-struct BlockInput {
-    std::string name;
-    GLuint buffer = 0;
-};
-
-using Constant = std::variant<int, unsigned, float, glm::vec2, glm::vec3>;
-
-/// One pass while it is being declared. Names are the shader's own.
-struct Pass {
-    struct Use {
-        std::string name;
-        TextureHandle texture;
-        bool write = false;
-    };
-
-    std::string name;
-    std::string shader;
-    Defines defines;
-    std::vector<Use> uses;
-    std::vector<std::pair<std::string, Constant>> constants;
-    const SceneInputs* scene_inputs = nullptr;
-    Extent domain;
-
-    Pass& define(const Defines& more);
-    Pass& read(const char* variable, TextureHandle texture);
-    Pass& write(const char* variable, TextureHandle texture);
-    Pass& constant(const char* variable, Constant value);
-    Pass& scene(const SceneInputs& inputs);  ///< `inputs` must outlive the frame.
-    Pass& dispatch(Extent over);  ///< One invocation a pixel, rounded up to whole work groups.
 };
 
 /// A texture that a graph holds.
@@ -89,9 +36,7 @@ struct TextureAllocation {
 class FrameGraph {
 public:
     /// `software`: passes are timed by the host clock.
-    /// `strict`: a declared name that is not active in the program throws; else it is logged once.
-    /// What is active is the driver's decision and depends on the scene (an empty one needs no
-    /// random number), so tests are strict on scenes that use everything and servers are not.
+    /// `strict`: see DeclarationCheck.
     FrameGraph(ProgramCache& programs, bool software, bool strict);
 
     /// Starts declaring a frame. A changed extent drops every texture and so every history.
@@ -150,12 +95,6 @@ private:
         int resource_current = -1;
     };
 
-    static bool declares(
-        const Pass& pass, const std::string& name, const UniformVariable& variable);
-    bool offers_block(const std::string& name) const;
-    void check(const Pass& pass, const Program& program) const;
-    void check_declared(const Pass& pass, const Program& program) const;
-    void complain(const Pass& pass, const std::string& variable, const std::string& problem) const;
     void find_lifetimes();
     void allocate_histories();
     void run(const Pass& pass, int pass_index);
@@ -165,7 +104,7 @@ private:
     void place_barrier(const Pass& pass);
 
     ProgramCache& programs_;
-    bool strict_;
+    DeclarationCheck check_;
     bool keeps_all_ = false;
     GpuTimer timer_;
     Extent extent_;
@@ -177,7 +116,6 @@ private:
     std::vector<GLuint> dirty_;  ///< Textures written since the last barrier.
     std::vector<GLuint> read_;  ///< Textures read since: a write to one must wait too.
     int barriers_ = 0;
-    mutable std::set<std::string> warned_;
 };
 
 }  // namespace farlight

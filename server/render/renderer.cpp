@@ -3,6 +3,7 @@
 
 #include "server/gl/context.h"
 #include "server/gl/gl_error.h"
+#include "server/render/frame_limits.h"
 #include "server/render/live_scene.h"
 #include "server/render/start_size.h"
 
@@ -13,10 +14,8 @@
 #include <mutex>
 #include <spdlog/spdlog.h>
 #include <thread>
-#include <unistd.h>
 
 namespace farlight {
-namespace {
 
 struct Client {
     std::shared_ptr<FrameSource> source;
@@ -26,37 +25,11 @@ struct Client {
     bool leaving = false;
 };
 
-std::size_t memory_for_views(const RendererOptions& options, bool software)
-{
-    if (options.view_memory != 0)
-        return options.view_memory;
-    const auto physical = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES))
-        * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-    return software ? physical / 2 : std::size_t{8} << 30;
-}
+namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-/// Longest a frame may be [path segments]: about a second of a fast GPU, minutes of llvmpipe. One
-/// client's frame is drawn in one go, so this also bounds how long the others wait, and keeps clear
-/// of drivers' watchdogs.
-constexpr double kMostSegments = 1e9;
-
-/// Why a request is too much for one frame, or nothing.
-std::string too_much_work(const RenderRequest& request)
-{
-    const RenderSettings& s = request.settings;
-    const double segments = static_cast<double>(request.extent.width) * request.extent.height
-        * s.samples_per_pixel * s.max_depth;
-    if (segments <= kMostSegments)
-        return {};
-    return "a frame of " + std::to_string(request.extent.width) + "x"
-        + std::to_string(request.extent.height) + " with " + std::to_string(s.samples_per_pixel)
-        + " samples a pixel and " + std::to_string(s.max_depth)
-        + " segments is more than 1e9 path segments: ask for fewer samples a frame";
 }
 
 }  // namespace
@@ -112,7 +85,7 @@ void Renderer::State::run(std::promise<void> ready)
         live.show(load_onto_device(std::move(scene)));
         live.prepare_programs(options.settings);
         RendererDescription d = describe(*context, live);
-        view_memory = memory_for_views(options, d.software);
+        view_memory = memory_for_views(options.view_memory, d.software);
         if (!options.extent)
             live.finish_programs();  // what is measured is what will draw
         d.default_extent = options.extent ? *options.extent
@@ -263,10 +236,7 @@ std::string Renderer::State::reserve(Client& client, Extent extent)
     for (const auto& other : clients)
         taken += other.get() == &client ? 0 : other->view_bytes;
     if (taken + wanted > view_memory)
-        return "a picture of " + std::to_string(extent.width) + "x" + std::to_string(extent.height)
-            + " needs " + std::to_string(wanted >> 20) + " MiB, but of the "
-            + std::to_string(view_memory >> 20) + " MiB for all clients only "
-            + std::to_string((view_memory - taken) >> 20) + " MiB are left";
+        return too_little_memory(extent, wanted, taken, view_memory);
     client.view_bytes = wanted;
     return {};
 }

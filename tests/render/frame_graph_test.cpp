@@ -152,6 +152,28 @@ TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndAfterAResi
     EXPECT_FALSE(write({8, 8}));
 }
 
+/// What the last frame kept has its size and must not serve the next one, which has another.
+TEST_F(FrameGraphTest, AfterAResizeEveryTextureHasTheNewSize)
+{
+    const auto draw = [&](Extent extent) {
+        graph.begin_frame(extent, {});
+        const History history = graph.history("count", GL_RGBA32F);
+        graph.add_pass("fill", "tests/fill")
+            .write("out_value", history.current)
+            .constant("amount", 1.0F);
+        const TextureHandle sum = plus(history.current, 1);
+        const TextureHandle copy = filled(3);
+        graph.keep(sum);
+        graph.keep(copy);
+        graph.execute();
+        for (const TextureHandle texture : {history.current, history.previous, sum, copy})
+            EXPECT_EQ(graph.texture(texture).extent(), extent);
+        EXPECT_EQ(graph.texture_bytes(), 4U * 16 * extent.width * extent.height);
+    };
+    for (const Extent extent : {kExtent, Extent{24, 16}, Extent{8, 8}, kExtent})
+        draw(extent);
+}
+
 TEST_F(FrameGraphTest, RefusesAConstantTheShaderDoesNotUse)
 {
     const TextureHandle texture = graph.create("t", GL_RGBA32F);
