@@ -48,52 +48,6 @@ std::string quoted(const std::string& text)
 
 }  // namespace
 
-/// What the renderer sees of a connection. Lives on the render thread; hands everything over.
-class Connection::Source : public FrameSource {
-public:
-    Source(std::weak_ptr<Connection> connection, asio::io_context::executor_type executor,
-        std::shared_ptr<Session::Slot> slot)
-        : connection_(std::move(connection))
-        , executor_(std::move(executor))
-        , slot_(std::move(slot))
-    {
-    }
-
-    std::optional<RenderRequest> next_request() override
-    {
-        std::optional<RenderRequest> request = slot_->take();
-        if (!request)
-            return std::nullopt;
-        begun_.push_back(Clock::now());
-        asio::post(executor_, [weak = connection_] {
-            if (const auto connection = weak.lock()) {
-                connection->session_.renderer_took_request();
-                connection->advance();
-            }
-        });
-        return request;
-    }
-
-    void frame_done(RenderedFrame frame) override
-    {
-        const Time begun = begun_.front();
-        begun_.pop_front();
-        asio::post(executor_, [weak = connection_, frame = std::move(frame), begun]() mutable {
-            if (const auto connection = weak.lock()) {
-                connection->hub_.metrics.frame_drawn((frame.trace_ms + frame.denoise_ms) / 1000);
-                connection->session_.drawn(std::move(frame), begun);
-                connection->advance();
-            }
-        });
-    }
-
-private:
-    std::weak_ptr<Connection> connection_;
-    asio::io_context::executor_type executor_;
-    std::shared_ptr<Session::Slot> slot_;
-    std::deque<Time> begun_;
-};
-
 Connection::Connection(Hub& hub, asio::ip::tcp::socket socket)
     : hub_(hub)
     , name_("s" + std::to_string(++hub.sessions_opened))
@@ -230,10 +184,30 @@ void Connection::carry_out(effects::Encode encode)
 void Connection::carry_out(effects::WakeRenderer /*wake*/)
 {
     if (!source_) {
-        source_ = std::make_shared<Source>(weak_from_this(), hub_.context.get_executor(), slot_);
+        source_ =
+            std::make_shared<SlotSource>(slot_, hub_.context.get_executor(), renderer_events());
         hub_.renderer.attach(source_);
     }
     hub_.renderer.wake();
+}
+
+/// What the renderer's doings mean here. They hold nothing: a connection may go before them.
+SlotSource::Events Connection::renderer_events()
+{
+    const auto taken = [weak = weak_from_this()] {
+        if (const auto self = weak.lock()) {
+            self->session_.renderer_took_request();
+            self->advance();
+        }
+    };
+    const auto drawn = [weak = weak_from_this()](RenderedFrame frame, Time begun) {
+        if (const auto self = weak.lock()) {
+            self->hub_.metrics.frame_drawn((frame.trace_ms + frame.denoise_ms) / 1000);
+            self->session_.drawn(std::move(frame), begun);
+            self->advance();
+        }
+    };
+    return {taken, drawn};
 }
 
 void Connection::carry_out(effects::Close close)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "server/stream/hub.h"
+#include "server/stream/slot_source.h"
 #include "server/stream/token_bucket.h"
 
 #include <boost/asio/ip/tcp.hpp>
@@ -58,7 +59,6 @@ public:
     int frames_in_flight() const { return session_.frames_in_flight(); }
 
 private:
-    class Source;
     using Stream = boost::beast::websocket::stream<boost::beast::basic_stream<boost::asio::ip::tcp,
         boost::asio::any_io_executor, WriteProgress>>;
     using ErrorCode = boost::beast::error_code;
@@ -79,6 +79,7 @@ private:
     void carry_out(const effects::FrameDropped& dropped);
     void carry_out(const effects::MessageRefused& refused);
     void carry_out(effects::Edit edit);
+    SlotSource::Events renderer_events();
 
     void write_next();
     void on_written(ErrorCode error, bool was_frame);
@@ -95,7 +96,7 @@ private:
         encoder_;  ///< Keeps frames in order.
     std::shared_ptr<Session::Slot> slot_;
     Session session_;
-    std::shared_ptr<Source> source_;  ///< Since the renderer was first asked for a frame.
+    std::shared_ptr<SlotSource> source_;  ///< Since the renderer was first asked for a frame.
 
     boost::beast::flat_buffer incoming_;
     TokenBucket bucket_;

@@ -1,6 +1,7 @@
 // Session: see the header. Messages first, then the way of a frame, then how a session ends.
 #include "server/stream/session.h"
 
+#include "server/stream/drawn_frame.h"
 #include "server/stream/welcome.h"
 
 #include <algorithm>
@@ -15,13 +16,6 @@ using protocol::Mode;
 
 /// Frames of one client under way may hold this many bytes; one frame may always be under way.
 constexpr std::int64_t kMostBytesInFlight = 256LL << 20U;
-/// JPEG quality of a resting picture on its way to the lossless one.
-constexpr int kRestingQuality = 90;
-
-std::uint32_t microseconds(double milliseconds)
-{
-    return static_cast<std::uint32_t>(std::clamp(milliseconds * 1000, 0.0, 4e9));
-}
 
 }  // namespace
 
@@ -278,7 +272,7 @@ void Session::drawn(RenderedFrame frame, Time begun)
     if (!frame.error.empty())
         return renderer_failed(frame.error);
     plan_->scene_moves(frame.moves);
-    note(frame);
+    last_frame_ = inspection_of(frame);
     if (plan_->repeats_final(draw)) {
         drop_frame("repeats_final");
         return plan_drawing();
@@ -290,53 +284,10 @@ void Session::drawn(RenderedFrame frame, Time begun)
             pacing_->dropped();
         }
     }
-    effects_.push_back(effects::Encode{task_for(std::move(frame), draw, begun)});
+    effects_.push_back(
+        effects::Encode{task_for(std::move(frame), draw, begun, plan_->repeats_final(draw))});
     encoding_.push_back(draw.asked);
     plan_drawing();
-}
-
-/// Keeps what `inspect` may ask for.
-void Session::note(const RenderedFrame& frame)
-{
-    last_frame_ = {};
-    for (const std::string_view name : frame.effects.names())
-        last_frame_.program.emplace_back(name);
-    for (const PassTime& time : frame.pass_times)
-        last_frame_.passes.push_back(time.pass);
-    for (const auto& [name, bytes] : frame.memory)
-        last_frame_.view_memory.push_back({name, bytes});
-}
-
-EncodeTask Session::task_for(RenderedFrame&& frame, const Draw& draw, Time begun) const
-{
-    namespace flags = protocol::frame_flags;
-    const bool still = draw.request.refine;
-    const bool final = plan_->repeats_final(draw);
-    EncodeTask task{std::move(frame.image), {}, draw.request.settings.jpeg_quality};
-    protocol::FrameHeader& header = task.header;
-    header.format = draw.format;
-    if (still && draw.format == protocol::Format::kJpeg420) {
-        header.format = protocol::Format::kJpeg444;
-        task.jpeg_quality = std::max(task.jpeg_quality, kRestingQuality);
-    }
-    if (final && !is_lossless(draw.format))
-        header.format = protocol::Format::kPng;
-    const auto flag = [](bool set, std::uint16_t bit) { return set ? bit : std::uint16_t{0}; };
-    header.flags = flag(still, flags::kStill) | flag(is_lossless(header.format), flags::kLossless)
-        | flag(frame.history_reset, flags::kHistoryReset) | flag(final, flags::kConverged);
-    header.camera_sequence = draw.camera_sequence;
-    header.session_epoch = draw.session_epoch;
-    header.accumulated_samples = frame.accumulated_samples;
-    header.nonfinite_count = frame.nonfinite_count;
-    if (draw.asked)
-        header.wait_us =
-            microseconds(std::chrono::duration<double, std::milli>(begun - *draw.asked).count());
-    header.trace_us = microseconds(frame.trace_ms);
-    header.denoise_us = microseconds(frame.denoise_ms);
-    for (const PassTime& time : frame.pass_times)
-        if (header.passes.size() < protocol::kMaxPasses)
-            header.passes.push_back({time.pass, static_cast<float>(time.milliseconds)});
-    return task;
 }
 
 void Session::encoded(EncodedFrame frame)

@@ -141,8 +141,6 @@ private:
 
     void plan_drawing();
     bool may_start() const;
-    EncodeTask task_for(RenderedFrame&& frame, const Draw& draw, Time begun) const;
-    void note(const RenderedFrame& frame);
     void drop_frame(std::string_view why);
     bool try_setting(RenderSettings& settings, const std::string& key, const nlohmann::json& value);
     std::optional<Extent> checked_extent(std::uint32_t width, std::uint32_t height);

@@ -1,0 +1,63 @@
+// Frame headers and inspections.
+#include "server/stream/drawn_frame.h"
+
+#include <algorithm>
+
+namespace farlight {
+namespace {
+
+/// JPEG quality of a resting picture on its way to the lossless one.
+constexpr int kRestingQuality = 90;
+
+std::uint32_t microseconds(double milliseconds)
+{
+    return static_cast<std::uint32_t>(std::clamp(milliseconds * 1000, 0.0, 4e9));
+}
+
+}  // namespace
+
+EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
+    std::chrono::steady_clock::time_point begun, bool final)
+{
+    namespace flags = protocol::frame_flags;
+    const bool still = draw.request.refine;
+    EncodeTask task{std::move(frame.image), {}, draw.request.settings.jpeg_quality};
+    protocol::FrameHeader& header = task.header;
+    header.format = draw.format;
+    if (still && draw.format == protocol::Format::kJpeg420) {
+        header.format = protocol::Format::kJpeg444;
+        task.jpeg_quality = std::max(task.jpeg_quality, kRestingQuality);
+    }
+    if (final && !is_lossless(draw.format))
+        header.format = protocol::Format::kPng;
+    const auto flag = [](bool set, std::uint16_t bit) { return set ? bit : std::uint16_t{0}; };
+    header.flags = flag(still, flags::kStill) | flag(is_lossless(header.format), flags::kLossless)
+        | flag(frame.history_reset, flags::kHistoryReset) | flag(final, flags::kConverged);
+    header.camera_sequence = draw.camera_sequence;
+    header.session_epoch = draw.session_epoch;
+    header.accumulated_samples = frame.accumulated_samples;
+    header.nonfinite_count = frame.nonfinite_count;
+    if (draw.asked)
+        header.wait_us =
+            microseconds(std::chrono::duration<double, std::milli>(begun - *draw.asked).count());
+    header.trace_us = microseconds(frame.trace_ms);
+    header.denoise_us = microseconds(frame.denoise_ms);
+    for (const PassTime& time : frame.pass_times)
+        if (header.passes.size() < protocol::kMaxPasses)
+            header.passes.push_back({time.pass, static_cast<float>(time.milliseconds)});
+    return task;
+}
+
+protocol::Inspection inspection_of(const RenderedFrame& frame)
+{
+    protocol::Inspection inspection;
+    for (const std::string_view name : frame.effects.names())
+        inspection.program.emplace_back(name);
+    for (const PassTime& time : frame.pass_times)
+        inspection.passes.push_back(time.pass);
+    for (const auto& [name, bytes] : frame.memory)
+        inspection.view_memory.push_back({name, bytes});
+    return inspection;
+}
+
+}  // namespace farlight
