@@ -23,9 +23,9 @@ std::vector<float> factors_at(
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene) : scene_(scene)
+GpuScene::GpuScene(const Scene& scene, const DeviceLimits& limits) : scene_(scene)
 {
-    PackedScene packed = pack_scene(scene, device_texture_limits());
+    PackedScene packed = pack_scene(scene, limits.textures);
     effects_ = packed.effects;
     triangle_count_ = packed.content.triangles;
     light_count_ = packed.lights->count();
@@ -37,7 +37,7 @@ GpuScene::GpuScene(const Scene& scene) : scene_(scene)
         std::to_string(std::max<std::size_t>(packed.textures.arrays().size(), 1)));
     buffers_.emplace_back("nothing", std::span<const std::byte>());
     for (const auto& [name, texels] : packed.tables())
-        upload(name, *texels);
+        upload(name, *texels, limits);
     images_ = std::make_unique<TextureArrays>(packed.textures);
     textures_.insert(images_->textures().begin(), images_->textures().end());
     for (const TextureArrays::Array& array : images_->arrays())
@@ -107,17 +107,16 @@ void GpuScene::update(const char* name, const Texels& texels, std::size_t first_
             std::as_bytes(std::span<const glm::uvec4>(texels)), first_texel * sizeof texels[0]);
 }
 
-void GpuScene::upload(const char* name, const Texels& texels)
+void GpuScene::upload(const char* name, const Texels& texels, const DeviceLimits& limits)
 {
     if (texels.empty()) {
         textures_[name] = buffers_.front().texture(GL_RGBA32UI);
         return;
     }
-    GLint limit = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &limit);
-    if (texels.size() > static_cast<std::size_t>(limit))
+    if (texels.size() > limits.buffer_texels)
         throw GlError("the scene needs " + std::to_string(texels.size()) + " texels for '" + name
-            + "', but this device allows " + std::to_string(limit) + " in a buffer texture");
+            + "', but this device allows " + std::to_string(limits.buffer_texels)
+            + " in a buffer texture");
     buffer_of_[name] = buffers_.size();
     buffers_.emplace_back(name, std::as_bytes(std::span<const glm::uvec4>(texels)));
     textures_[name] = buffers_.back().texture(GL_RGBA32UI);

@@ -3,6 +3,7 @@
 
 #include "server/gl/buffer.h"
 #include "server/gl/shader_source.h"
+#include "server/scene/device_limits.h"
 #include "server/scene/packed_scene.h"
 #include "server/scene/texture_arrays.h"
 
@@ -21,9 +22,9 @@ struct Allocation {
 
 class GpuScene {
 public:
-    /// At time 0. Throws GlError naming buffer, limit and need when the scene is larger than the
-    /// device allows. Of `scene` everything but meshes and images must outlive this.
-    explicit GpuScene(const Scene& scene);
+    /// At time 0. Throws GlError naming buffer, limit and need when the scene is larger than
+    /// `limits` allow. Of `scene` everything but meshes and images must outlive this.
+    explicit GpuScene(const Scene& scene, const DeviceLimits& limits = device_limits());
 
     /// Brings what moves to `time` and its past to `prev_time` [s]; costs nothing when neither has
     /// changed. Frames that are drawn after it see it, frames before it do not.
@@ -47,7 +48,7 @@ public:
     std::size_t bytes() const;
 
 private:
-    void upload(const char* name, const Texels& texels);
+    void upload(const char* name, const Texels& texels, const DeviceLimits& limits);
     void update(const char* name, const Texels& texels, std::size_t first_texel = 0);
     void update_now();
     void update_lights();

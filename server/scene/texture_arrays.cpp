@@ -39,17 +39,6 @@ std::string content_of(const TextureArrayLayout& array)
 
 }  // namespace
 
-TextureLimits device_texture_limits()
-{
-    GLint size = 0;
-    GLint layers = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &size);
-    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
-    // A reference keeps sizes and layers in 16 bits.
-    return {std::min(static_cast<std::uint32_t>(size), 0xffffU),
-        std::min(static_cast<std::uint32_t>(layers), 0xffffU)};
-}
-
 TextureArrays::TextureArrays(const TextureLayout& layout)
 {
     const TextureArrayLayout nothing{TexelSpace::kLinear, 1, 1, {kNone}};

@@ -8,9 +8,6 @@
 
 namespace farlight {
 
-/// What the current context allows.
-TextureLimits device_texture_limits();
-
 class TextureArrays {
 public:
     /// Arrays of no layout hold one black texel, so that programs may bind all TEXTURE_ARRAYS.

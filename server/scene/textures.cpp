@@ -50,6 +50,18 @@ bool join_cheapest(std::vector<TextureArrayLayout>& arrays, const TextureLimits&
     return true;
 }
 
+/// Appends arrays of at most `layers` layers.
+void split(
+    const TextureArrayLayout& group, std::size_t layers, std::vector<TextureArrayLayout>& arrays)
+{
+    const std::size_t count = group.images.size();
+    for (std::size_t first = 0; first < count; first += layers) {
+        const auto begin = group.images.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto size = static_cast<std::ptrdiff_t>(std::min(layers, count - first));
+        arrays.push_back({group.space, group.width, group.height, {begin, begin + size}});
+    }
+}
+
 std::uint32_t wrap_word(Wrap wrap)
 {
     switch (wrap) {
@@ -101,20 +113,14 @@ void TextureLayout::lay_out(const TextureLimits& limits)
         group.images.push_back(use.image);
     }
     arrays_.clear();
-    for (const auto& [key, group] : groups) {
-        if (group.images.size() > limits.layers)
-            throw GlError("the scene needs " + std::to_string(group.images.size())
-                + " images of up to " + size_text(group.width, group.height)
-                + " texels, but this device allows " + std::to_string(limits.layers)
-                + " layers in a texture array");
-        arrays_.push_back(group);
-    }
+    for (const auto& [key, group] : groups)
+        split(group, limits.layers, arrays_);
     while (arrays_.size() > TEXTURE_ARRAYS)
         if (!join_cheapest(arrays_, limits))
-            throw GlError("the scene's images need " + std::to_string(arrays_.size())
-                + " texture arrays of up to " + std::to_string(limits.layers)
-                + " layers (this device's limit), but " + std::to_string(TEXTURE_ARRAYS)
-                + " are bound");
+            throw GlError("the scene's " + std::to_string(places_.size()) + " images need "
+                + std::to_string(arrays_.size()) + " texture arrays of up to "
+                + std::to_string(limits.layers) + " layers (this device's limit), but "
+                + std::to_string(TEXTURE_ARRAYS) + " are bound");
     for (std::uint32_t a = 0; a < arrays_.size(); ++a)
         for (std::uint32_t layer = 0; layer < arrays_[a].images.size(); ++layer)
             places_[{arrays_[a].images[layer], arrays_[a].space}] = a << 16U | layer;

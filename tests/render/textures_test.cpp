@@ -1,4 +1,5 @@
 // Texture lookups on the device against an oracle in double precision.
+#include "server/scene/device_limits.h"
 #include "server/scene/texture_arrays.h"
 #include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
@@ -109,7 +110,7 @@ protected:
         layout_.need(other, TexelSpace::kSrgb);
         layout_.need(other, TexelSpace::kLinear);
         layout_.need(texture_, GetParam().space);
-        layout_.lay_out(device_texture_limits());
+        layout_.lay_out(device_limits().textures);
     }
 
     /// Results: two vectors a probe, filtered and the mean of stochastic lookups.
@@ -216,7 +217,7 @@ TEST_F(TextureArraysTest, BindAllArraysAndReportTheirMemory)
     Texture texture;
     texture.image = 0;
     layout.need(texture, TexelSpace::kSrgb);
-    layout.lay_out(device_texture_limits());
+    layout.lay_out(device_limits().textures);
     const TextureArrays arrays(layout);
     EXPECT_EQ(arrays.textures().size(), std::size_t{TEXTURE_ARRAYS});
     ASSERT_EQ(arrays.arrays().size(), 1U);

@@ -147,15 +147,38 @@ TEST(TextureLayouts, RefuseWhatTheDeviceCannotHoldNamingLimitAndNeed)
     using testing::HasSubstr;
     EXPECT_THAT(refusal({image_of(33, 2, {})}, {32, 8}),
         AllOf(HasSubstr("'image'"), HasSubstr("33x2"), HasSubstr("32x32")));
-    EXPECT_THAT(refusal(std::vector<Image8>(9, image_of(4, 4, {})), {32, 8}),
-        AllOf(HasSubstr("9 images"), HasSubstr("8 layers")));
-    EXPECT_EQ(refusal(std::vector<Image8>(8, image_of(4, 4, {})), {32, 8}), "");
+    EXPECT_THAT(refusal(std::vector<Image8>(6 * 8 + 1, image_of(4, 4, {})), {32, 8}),
+        AllOf(HasSubstr("49 images"), HasSubstr("7 texture arrays"), HasSubstr("8 layers")));
+    EXPECT_EQ(refusal(std::vector<Image8>(6 * 8, image_of(4, 4, {})), {32, 8}), "");
     // Seven sizes of as many layers as there may be: no two may be joined.
     std::vector<Image8> images;
     for (std::uint32_t size = 1; size <= 64; size *= 2)
         images.push_back(image_of(size, size, {}));
     EXPECT_THAT(
         refusal(images, {64, 1}), AllOf(HasSubstr("7 texture arrays"), HasSubstr("1 layers")));
+}
+
+TEST(TextureLayouts, SplitWhatHasMoreImagesThanAnArrayHasLayers)
+{
+    const std::vector<Image8> images(5, image_of(4, 4, {}));
+    TextureLayout layout(images);
+    for (std::uint32_t i = 0; i < images.size(); ++i)
+        layout.need(texture_of(i), TexelSpace::kSrgb);
+    layout.lay_out({32, 2});
+    ASSERT_EQ(layout.arrays().size(), 3U);
+    std::vector<std::uint32_t> placed;
+    for (std::uint32_t a = 0; a < 3; ++a) {
+        const std::vector<std::uint32_t>& layers = layout.arrays()[a].images;
+        EXPECT_LE(layers.size(), 2U);
+        for (std::uint32_t layer = 0; layer < layers.size(); ++layer) {
+            const std::uint32_t word =
+                layout.packed(texture_of(layers[layer]), TexelSpace::kSrgb)[0].x;
+            EXPECT_EQ(word >> TEXTURE_ARRAY_SHIFT & 7U, a);
+            EXPECT_EQ(word & 0xffffU, layer);
+            placed.push_back(layers[layer]);
+        }
+    }
+    EXPECT_THAT(placed, testing::UnorderedElementsAre(0, 1, 2, 3, 4));
 }
 
 TEST(TextureLayouts, ReportTheBytesOfAllLevels)

@@ -16,9 +16,9 @@ Scene without_neutral(Scene scene)
 
 }  // namespace
 
-TestScene::TestScene(Scene s)
+TestScene::TestScene(Scene s, const DeviceLimits& limits)
     : scene(without_neutral(std::move(s)))
-    , gpu_scene_(std::make_shared<GpuScene>(scene))
+    , gpu_scene_(std::make_shared<GpuScene>(scene, limits))
     , scene_programs_(programs_, nullptr, nullptr, {})
     , inputs{gpu_scene_->textures(), gpu_scene_->defines()}
     , shared{programs_, scene_programs_, look_of(scene),

@@ -13,7 +13,7 @@ namespace farlight {
 /// A scene on the device, ready for views.
 class TestScene {
 public:
-    explicit TestScene(Scene s);
+    explicit TestScene(Scene s, const DeviceLimits& limits = device_limits());
 
     Scene scene;
 
