@@ -210,6 +210,16 @@ std::vector<NeutralCase> neutral_cases()
             }},
         {"lens without aperture", [](Scene& s) { s.lens.focus_distance = 3; }},
         {"blend with opacity 1", [](Scene& s) { s.materials[0].alpha_mode = AlphaMode::kBlend; }},
+        {"blend whose texels are all there",
+            [](Scene& s) {
+                s.materials[0].alpha_mode = AlphaMode::kBlend;
+                s.materials[0].albedo_texture = texture_of(s, {kWhite, kWhite});
+            }},
+        {"opaque, whatever its texels and opacity say",
+            [](Scene& s) {
+                s.materials[0].opacity = 0.5F;
+                s.materials[0].albedo_texture = texture_of(s, {{255, 255, 255, 0}, kWhite});
+            }},
         {"mask whose texels all pass",
             [](Scene& s) {
                 s.materials[0].alpha_mode = AlphaMode::kMask;
