@@ -87,6 +87,24 @@ INSTANTIATE_TEST_SUITE_P(Shapes, BlendTest,
         Shape{"MovingSphere", {"sphere", 0, Sphere{{0, 0, -9}, 8.5}}, 2, true}),
     [](const auto& test) { return test.param.name; });
 
+TEST_F(BlendTest, AMeshThatDeformsLetsThroughAsMuch)
+{
+    Scene scene = black_veil(0.3F);
+    Mesh cloth{
+        "cloth", {{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}}, {}, {{0, 1, 2}, {0, 2, 3}}};
+    cloth.morph_targets.push_back({{{0, 0, 1}, {0, 0, -1}, {0, 0, 1}, {0, 0, -1}}});
+    scene.meshes.push_back(cloth);
+    scene.objects.push_back({"cloth", 0, MeshInstance{.morph_weights = {0}}});
+    Track track;
+    track.target = Track::Target::kMorphWeights;
+    track.times = {0, 1};
+    track.values = {0, 1};
+    scene.animation.tracks.push_back(track);
+    const Estimate mean = mean_picture(scene, 64, 0.5);
+    EXPECT_NEAR(mean.mean, 0.7, 5 * mean.standard_error);
+    EXPECT_LT(mean.standard_error, 0.004);
+}
+
 TEST_F(BlendTest, TwoVeilsStopIndependently)
 {
     Scene scene = black_veil(0.4F);
