@@ -60,7 +60,13 @@ MovingScene::MovingScene(const Scene& scene, const FlatScene& flat,
     stack_depth_ = top_level_stack(entries) + deepest;
     top_level_.resize(top_level_texels(entries));
     instance_texels_.resize(instances_.size() * INSTANCE_TEXELS);
-    prev_instance_texels_.resize(instances_.size() * PREV_INSTANCE_TEXELS);
+    const std::vector<bool> moving = moving_nodes(scene_.animation);
+    const bool moves = std::any_of(instances_.begin(), instances_.end(), [&](const Instance& i) {
+        const std::uint32_t node = scene_.objects[i.object].node;
+        return node != kNone && moving[node];
+    });
+    if (moves)
+        prev_instance_texels_.resize(instances_.size() * PREV_INSTANCE_TEXELS);
     pose(0, 0);
 }
 
@@ -121,7 +127,7 @@ void MovingScene::pack_now()
 
 void MovingScene::pack_previous()
 {
-    for (std::size_t i = 0; i < instances_.size(); ++i)
+    for (std::size_t i = 0; i * PREV_INSTANCE_TEXELS < prev_instance_texels_.size(); ++i)
         pack_rows(prev_->world_from_group[i],
             std::span(prev_instance_texels_).subspan(i * PREV_INSTANCE_TEXELS));
     for (std::size_t i = 0; i < meshes_.size(); ++i)

@@ -30,6 +30,7 @@ public:
     /// The first texels of bvh_nodes; empty where the world's own tree is all there is.
     const Texels& top_level() const { return top_level_; }
     const Texels& instances() const { return instance_texels_; }
+    /// Empty where no instance moves.
     const Texels& prev_instances() const { return prev_instance_texels_; }
     const DeformingTables& deforming() const { return deforming_; }
     /// The area lights, where they are now.

@@ -162,9 +162,15 @@ void place_in_world(uint instance, inout Surface s)
     s.material = ids.z;
     s.light = lit ? ids.w + s.light - 1u : 0u;
 #ifdef FX_MOTION
-    s.prev_position = transform_point(load_transform(prev_instances, (int(instance) - 1) * PREV_INSTANCE_TEXELS), s.position);
+    const Transform prev_m = load_transform(prev_instances, (int(instance) - 1) * PREV_INSTANCE_TEXELS);
+    const vec3 moved_from = transform_point(prev_m, s.position);
 #endif
     s.position = transform_point(m, s.position);
+    s.prev_position = s.position;
+#ifdef FX_MOTION
+    if (textureSize(prev_instances) > 1)  // else nothing moves
+        s.prev_position = moved_from;
+#endif
     s.geometric_normal = normalize(transform_normal(inverse, s.geometric_normal));
     s.shading_normal = normalize(transform_normal(inverse, s.shading_normal));
     const vec3 linear_extent = vec3(dot(abs(m.x.xyz), s.extent), dot(abs(m.y.xyz), s.extent), dot(abs(m.z.xyz), s.extent));

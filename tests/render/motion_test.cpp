@@ -125,14 +125,20 @@ INSTANTIATE_TEST_SUITE_P(ScalesAndPlaces, InstanceTest,
         Placement{"Huge", 1e4, {0, 0, 0}}, Placement{"FarAway", 1, {1e3, 500, -250}}),
     [](const auto& test) { return test.param.name; });
 
-/// While time stands still, what could move has exactly no motion, and pictures may be averaged.
+/// While time stands still, what could move has exactly no motion, and pictures may be averaged;
+/// nor has what never moves in a space of its own, as a disc that its carrier squeezes.
 TEST_F(GlTest, PausedThingsHaveExactlyNoMotion)
 {
     Scene things = things_of_all_kinds();
     hang_on_nodes(
         things, [](std::size_t i) { return placed(i, 1, {}); }, true);
-    for (Scene source : {bending_bar(12, 8), swelling_sphere(12, 8), things}) {
+    Scene resting = things_of_all_kinds();
+    hang_on_nodes(
+        resting, [](std::size_t i) { return placed(i, 1, {}); }, false);
+    for (Scene source : {bending_bar(12, 8), swelling_sphere(12, 8), things, resting}) {
         const TestScene on_device(std::move(source));
+        ASSERT_TRUE(on_device.inputs.calls_for("FX_INSTANCES")
+            || on_device.inputs.calls_for("FX_DEFORMATION"));
         View view(on_device.shared);
         view_of(view, on_device.scene, DebugView::kMotion, 0.4);
         const Image motion = view_of(view, on_device.scene, DebugView::kMotion, 0.4);

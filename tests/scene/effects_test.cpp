@@ -1,148 +1,46 @@
-// The registry: for every effect a pair of scenes that differ in its bit alone.
+// The registry: for every effect a pair of scenes that differ in its bit alone, reasons that people
+// read, and sets of effects.
 #include "server/scene/effects.h"
 
 #include "tests/scene/plain_scene.h"
+#include "tests/support/effect_pairs.h"
 
 #include <algorithm>
-#include <functional>
 #include <gmock/gmock.h>
 #include <random>
 
 namespace farlight {
 namespace {
 
-using Change = std::function<void(Scene&)>;
-
-void change_material(Scene& scene, const std::function<void(Material&)>& change)
+TEST(EffectsTest, EveryEffectHasItsPairOfScenes)
 {
-    change(scene.materials[0]);
-}
-
-struct Pair {
-    std::string effect;
-    Change without;  ///< What both scenes have besides plain().
-    Change with;  ///< What calls for the effect.
-};
-
-void glossy(Scene& scene)
-{
-    scene.materials.push_back({.name = "other", .metallic = 1, .roughness = 0.5F});
-    scene.objects.push_back({.name = "bowl", .material = 2, .shape = Sphere{}});
-}
-
-void nothing(Scene& /*scene*/) { }
-
-std::vector<Pair> pairs_of_materials()
-{
-    const auto material = [](auto change) {
-        return [change](Scene& scene) { change_material(scene, change); };
-    };
-    return {
-        {"rough_reflection",
-            [](Scene& s) {
-                glossy(s);
-                s.materials[2].roughness = 0;
-            },
-            material([](Material& m) { m.metallic = 1, m.roughness = 0.3F; })},
-        {"mirror", glossy, material([](Material& m) { m.metallic = 1, m.roughness = 0; })},
-        {"clearcoat", glossy, material([](Material& m) { m.clearcoat = 1; })},
-        {"dielectric", glossy, material([](Material& m) { m.transmission = 1, m.roughness = 0; })},
-        {"rough_dielectric",
-            [](Scene& s) {
-                glossy(s);
-                s.materials[2] = {.name = "glass", .roughness = 0, .transmission = 1};
-            },
-            material([](Material& m) { m.transmission = 1, m.roughness = 0.5F; })},
-        {"unlit", nothing, material([](Material& m) { m.unlit = true; })},
-        {"alpha", nothing,
-            material([](Material& m) { m.alpha_mode = AlphaMode::kBlend, m.opacity = 0.5F; })},
-        {"textures", nothing,
-            [](Scene& s) {
-                s.materials[0].albedo_texture = texture_of(s, {kBlack, kWhite});
-            }},
-        {"second_uvs",
-            [](Scene& s) {
-                s.materials[0].albedo_texture = texture_of(s, {kBlack, kWhite});
-            },
-            [](Scene& s) { s.materials[0].albedo_texture.uv_set = 1; }},
-        {"normal_maps",
-            [](Scene& s) {
-                s.materials[0].albedo_texture = texture_of(s, {kBlack, kWhite});
-            },
-            [](Scene& s) {
-                s.materials[0].normal_texture = texture_of(s, {kFlat, kTilted});
-            }},
-        {"vertex_colors", nothing,
-            [](Scene& s) {
-                s.meshes[0].colors = {glm::vec4(1), glm::vec4(0.5F), glm::vec4(1)};
-            }},
-    };
-}
-
-std::vector<Pair> pairs_of_the_rest()
-{
-    const auto delta = [](Scene& s) { s.lights.push_back({.name = "lamp"}); };
-    return {
-        {"triangles", [](Scene& s) { s.objects[0].shape = Sphere{}; },
-            [](Scene& s) { s.objects.push_back({.name = "quad", .shape = Quad{}}); }},
-        {"spheres", nothing,
-            [](Scene& s) { s.objects.push_back({.name = "ball", .shape = Sphere{}}); }},
-        {"disks", nothing,
-            [](Scene& s) { s.objects.push_back({.name = "coin", .shape = Disk{}}); }},
-        {"shading_normals", nothing,
-            [](Scene& s) { s.meshes[0].normals.assign(3, glm::vec3(0, 0, 1)); }},
-        {"sphere_lights",
-            [&](Scene& s) {
-                s.materials[1].emission = glm::vec3(1);
-                s.objects.push_back({.name = "lamp", .material = 1, .shape = Quad{}});
-                s.objects.push_back({.name = "ball", .shape = Sphere{}});
-            },
-            [](Scene& s) {
-                s.objects.push_back({.name = "sun", .material = 1, .shape = Sphere{}});
-            }},
-        {"delta_lights",
-            [](Scene& s) {
-                s.materials[1].emission = glm::vec3(1);
-                s.objects.push_back({.name = "lamp", .material = 1, .shape = Quad{}});
-            },
-            delta},
-        {"background", nothing, [](Scene& s) { s.background = glm::vec3(1); }},
-        {"environment_map",
-            [=](Scene& s) {
-                delta(s);
-                s.background = glm::vec3(1);
-            },
-            [](Scene& s) {
-                s.environment = std::make_shared<EnvironmentMap>(
-                    EnvironmentMap{"sky.hdr", 2, 1, {glm::vec3(1), glm::vec3(2)}});
-            }},
-        {"fog", nothing,
-            [](Scene& s) {
-                s.medium = {"haze", glm::vec3(0.02F), glm::vec3(0), 0};
-            }},
-        {"lens", nothing, [](Scene& s) { s.lens.radius = 0.1; }},
-    };
-}
-
-std::vector<Pair> all_pairs()
-{
-    std::vector<Pair> pairs = pairs_of_materials();
-    for (Pair& pair : pairs_of_the_rest())
-        pairs.push_back(std::move(pair));
-    return pairs;
+    std::vector<std::string_view> paired;
+    for (const EffectPair& pair : effect_pairs())
+        paired.push_back(pair.effect);
+    std::vector<std::string_view> registered;
+    for (const Effect& effect : effect_registry())
+        registered.push_back(effect.name);
+    EXPECT_THAT(paired, testing::UnorderedElementsAreArray(registered));
 }
 
 TEST(EffectsTest, PairsOfScenesDifferInOneBit)
 {
-    for (const Pair& pair : all_pairs()) {
-        Scene scene = plain();
+    for (const EffectPair& pair : effect_pairs()) {
+        Scene scene = lit_scene();
         pair.without(scene);
         const EffectMask without = mask_of_scene(scene);
         pair.with(scene);
         const EffectMask with = mask_of_scene(scene);
+        std::vector<std::string_view> expected = pair.along;
+        const auto& rows = effect_registry();
+        const bool by_setting = std::any_of(rows.begin(), rows.end(), [&](const Effect& effect) {
+            return effect.name == pair.effect && !effect.setting.empty();
+        });
+        if (!by_setting)
+            expected.push_back(pair.effect);
         EXPECT_FALSE(without.has(pair.effect)) << pair.effect;
-        EXPECT_THAT(with.without(without).names(), testing::ElementsAre(pair.effect));
-        EXPECT_TRUE(without.without(with).empty() || pair.effect == "triangles") << pair.effect;
+        EXPECT_THAT(with.without(without).names(), testing::UnorderedElementsAreArray(expected));
+        EXPECT_TRUE(without.without(with).empty()) << pair.effect;
     }
 }
 
