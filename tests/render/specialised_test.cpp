@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <iomanip>
+#include <numeric>
 #include <random>
 #include <sstream>
 
@@ -12,6 +13,9 @@ namespace farlight {
 namespace {
 
 constexpr int kFrames = 4;
+/// Of what moves: off its rest, and not in step with any key.
+constexpr double kFirstTime = 0.37;
+constexpr double kTimeStep = 0.083;
 
 /// The general programs are compiled once for all tests.
 ProgramCache& programs_of_all_tests()
@@ -47,22 +51,26 @@ public:
         , shared_{programs_of_all_tests(), scene_programs_, loaded_.look,
               static_cast<std::uint32_t>(loaded_.gpu->light_count()), true}
     {
+        shared_.gpu = loaded_.gpu.get();
         shared_.keep_all = true;
         scene_programs_.follow(loaded_.gpu);
     }
 
     EffectMask mask() const { return scene_programs_.scene_mask(); }
 
-    /// Everything that all frames wrote, while the camera moves a little.
+    /// Everything that all frames wrote, to the picture as people see it, while the camera moves a
+    /// little and time passes.
     std::vector<Texels> draw(RenderSettings settings, const EffectChoice& effects) const
     {
         settings.effects = effects;
         View view(shared_);
         RenderRequest request = linear_request(*loaded_.scene, {40, 24}, settings);
+        request.format = PixelFormat::kRgb8;
         const double step = 0.02 * glm::length(request.camera.target - request.camera.position);
         std::vector<Texels> all;
         for (int frame = 0; frame < kFrames; ++frame) {
             request.camera.position.x += step;
+            request.time = kFirstTime + kTimeStep * frame;
             view.render(request);
             for (const auto& [name, texture] : view.graph().written())
                 all.push_back(texels_of("frame " + std::to_string(frame) + " " + name, *texture));
@@ -123,13 +131,36 @@ EffectMask random_superset(EffectMask mask, std::mt19937& random)
     return EffectMask::of(names);
 }
 
-/// All shipped scenes where FARLIGHT_LONG_TESTS is set, else the first of each kind and the
-/// mixtures.
-std::vector<std::string> scene_names()
+/// `choices` against the general programs.
+void expect_as_general(const Subject& subject, const RenderSettings& settings,
+    const std::vector<EffectChoice>& choices, const std::string& what)
 {
-    if (std::getenv("FARLIGHT_LONG_TESTS") == nullptr)
-        return {"cornell_box", "four_spheres", "mesh", "fog_and_alpha", "lens_and_mirror",
-            "glass_in_fog", "normal_map", "environment", "everything"};
+    const auto expected = subject.draw(settings, {EffectChoice::Kind::kGeneral, {}});
+    for (const EffectChoice& choice : choices)
+        expect_equal(subject.draw(settings, choice), expected,
+            what + " with " + (choice.mask.empty() ? "its own" : to_text(choice)));
+}
+
+EffectChoice list(EffectMask mask)
+{
+    return {EffectChoice::Kind::kList, mask};
+}
+
+RenderSettings averaging()
+{
+    RenderSettings settings;
+    settings.denoiser = Denoiser::kAccumulate;
+    return settings;
+}
+
+unsigned seed_of(const std::string& scene)
+{
+    return std::accumulate(scene.begin(), scene.end(), 7U,
+        [](unsigned sum, char c) { return 31 * sum + static_cast<unsigned char>(c); });
+}
+
+std::vector<std::string> shipped_scenes()
+{
     std::vector<std::string> names;
     for (const auto& file :
         std::filesystem::directory_iterator(std::string(FARLIGHT_SOURCE_DIR) + "/scenes"))
@@ -145,24 +176,81 @@ class SpecialisedTest : public GlTest, public testing::WithParamInterface<std::s
 TEST_P(SpecialisedTest, EqualsTheGeneralProgramBitForBit)
 {
     const Subject subject(shipped_scene(GetParam() + ".json"));
-    const EffectChoice special{EffectChoice::Kind::kList, subject.mask()};
-    const EffectChoice general{EffectChoice::Kind::kGeneral, {}};
-    std::mt19937 random(static_cast<unsigned>(GetParam().size()) + 7);
-    const EffectChoice superset{EffectChoice::Kind::kList, random_superset(subject.mask(), random)};
-    for (const Denoiser denoiser : {Denoiser::kSvgf, Denoiser::kAccumulate}) {
-        RenderSettings settings;
-        settings.denoiser = denoiser;
-        const std::string with =
-            denoiser == Denoiser::kSvgf ? " with the denoiser" : " accumulating";
-        const auto expected = subject.draw(settings, general);
-        expect_equal(subject.draw(settings, special), expected, GetParam() + with);
-        if (denoiser == Denoiser::kSvgf)
-            expect_equal(subject.draw(settings, superset), expected,
-                GetParam() + " with the superset " + to_text(superset));
-    }
+    expect_as_general(subject, {}, {list({})}, GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedTest, testing::ValuesIn(scene_names()),
+INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedTest, testing::ValuesIn(shipped_scenes()),
+    [](const auto& test) { return test.param; });
+
+/// Effects that meet.
+class SupersetTest : public SpecialisedTest { };
+
+TEST_P(SupersetTest, EqualsTheGeneralProgramBitForBit)
+{
+    const Subject subject(shipped_scene(GetParam() + ".json"));
+    std::mt19937 random(seed_of(GetParam()));
+    expect_as_general(subject, {}, {list(random_superset(subject.mask(), random))}, GetParam());
+    expect_as_general(subject, averaging(), {list({})}, GetParam() + " averaged");
+}
+
+INSTANTIATE_TEST_SUITE_P(Mixtures, SupersetTest,
+    testing::Values("fog_and_alpha", "lens_and_mirror", "glass_in_fog", "worn_metal", "lantern",
+        "moving", "deforming"),
+    [](const auto& test) { return test.param; });
+
+/// What no shipped scene is small enough for: something that rests in a space of its own.
+TEST_F(GlTest, SpecialisedEqualsGeneralForInstancesAtRest)
+{
+    Scene scene = shipped_scene("cornell_box.json");
+    scene.animation.nodes.push_back({.name = "holder"});
+    scene.animation.nodes.back().translation = scene_bounds(scene).center();
+    scene.animation.nodes.back().scale = glm::dvec3(0.3, 0.2, 0.1) * scene_bounds(scene).radius();
+    scene.objects.push_back({.name = "egg", .shape = Sphere{}, .node = 0});
+    const Subject subject(std::move(scene));
+    ASSERT_TRUE(subject.mask().has("instances"));
+    ASSERT_FALSE(subject.mask().has("motion"));
+    expect_as_general(subject, {}, {list({})}, "egg");
+}
+
+/// Minutes: run by ctest -L long.
+class SpecialisedLongTest : public SpecialisedTest { };
+
+TEST_P(SpecialisedLongTest, EqualsTheGeneralProgramBitForBit)
+{
+    const Subject subject(shipped_scene(GetParam() + ".json"));
+    std::mt19937 random(seed_of(GetParam()) + 1);
+    std::vector<EffectChoice> choices{list({})};
+    for (int i = 0; i < 4; ++i)
+        choices.push_back(list(random_superset(subject.mask(), random)));
+    expect_as_general(subject, {}, choices, GetParam());
+    RenderSettings many = averaging();
+    many.samples_per_pixel = 3;
+    many.max_depth = 9;
+    expect_as_general(subject, many, choices, GetParam() + " averaged");
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedLongTest, testing::ValuesIn(shipped_scenes()),
+    [](const auto& test) { return test.param; });
+
+/// Each effect compiled in for nothing.
+class LeaveOneInLongTest : public GlTest, public testing::WithParamInterface<std::string> { };
+
+TEST_P(LeaveOneInLongTest, ChangesNoBitOfAPlainScene)
+{
+    const Subject subject(shipped_scene("cornell_box.json"));
+    const EffectMask more = EffectMask::of({GetParam()});
+    expect_as_general(subject, {}, {list(more)}, GetParam());
+}
+
+std::vector<std::string> compiled_effects()
+{
+    std::vector<std::string> names;
+    for (const std::string_view name : EffectMask::general().names())
+        names.emplace_back(name);
+    return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Effects, LeaveOneInLongTest, testing::ValuesIn(compiled_effects()),
     [](const auto& test) { return test.param; });
 
 }  // namespace
