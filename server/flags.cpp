@@ -9,8 +9,6 @@
 namespace farlight {
 namespace {
 
-constexpr int kWrongUsage = 2;
-
 /// $XDG_CACHE_HOME/farlight/programs, else ~/.cache/farlight/programs; nothing where neither is
 /// known.
 std::optional<std::filesystem::path> default_program_folder()

@@ -10,6 +10,9 @@
 
 namespace farlight {
 
+/// Exit status.
+constexpr int kWrongUsage = 2;
+
 struct Flags {
     std::filesystem::path scene;
     RendererOptions renderer;
@@ -22,7 +25,7 @@ struct Flags {
 std::optional<Extent> parse_extent(std::string_view text);
 
 /// Reads the command line. Where there is nothing more to do (--help, --version, wrong usage) says
-/// so on stdout or stderr and returns the exit status instead: 0, or 2 for wrong usage.
+/// so on stdout or stderr and returns the exit status instead: 0 or kWrongUsage.
 std::variant<Flags, int> parse_flags(int argc, const char* const* argv);
 
 }  // namespace farlight

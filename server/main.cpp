@@ -18,7 +18,6 @@ namespace farlight {
 namespace {
 
 constexpr int kFailed = 1;
-constexpr int kWrongUsage = 2;
 
 /// What streaming needs, from the real renderer.
 class RendererService : public RenderService {

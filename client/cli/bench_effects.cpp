@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <numeric>
 #include <optional>
@@ -187,7 +188,7 @@ void print_scenes(const std::vector<Row>& rows)
             row.ratio.interval.lower, row.ratio.interval.upper, row.too_slow() ? "!" : " ",
             mib(row.scene_bytes + row.general.view_bytes),
             mib(row.scene_bytes + row.special.view_bytes), row.compile_ms(),
-            frames ? std::to_string(static_cast<long>(*frames + 0.5)).c_str() : "never");
+            frames ? std::to_string(std::lround(*frames)).c_str() : "never");
     }
 }
 
@@ -218,7 +219,7 @@ int bench_effects(const TargetOptions& options, const EffectsBenchOptions& bench
         if (!bench_options.leave_one_in || rows.size() > 1)
             continue;
         for (const std::string& effect : lacking(bench)) {
-            say("effects: " + name + " with " + effect);
+            say(std::string("effects: ").append(name).append(" with ").append(effect));
             left_in.push_back(measure(bench, effect, effect, bench_options.frames));
         }
     }

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 
 namespace farlight {
 
@@ -16,7 +17,11 @@ struct ProgramKey {
     std::string shader;
     Defines defines;
 
-    auto operator<=>(const ProgramKey&) const = default;
+    bool operator==(const ProgramKey&) const = default;
+    bool operator<(const ProgramKey& other) const
+    {
+        return std::tie(shader, defines) < std::tie(other.shader, other.defines);
+    }
 };
 
 /// Used by one thread at a time; programs may be handed from one cache to another whose context

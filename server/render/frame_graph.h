@@ -14,6 +14,7 @@
 #include "server/render/declaration_check.h"
 #include "server/render/pass.h"
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -88,7 +89,7 @@ private:
     };
     struct HistoryPair {
         GLenum format = 0;
-        std::shared_ptr<GpuTexture> textures[2];
+        std::array<std::shared_ptr<GpuTexture>, 2> textures;
         int current = 0;
         bool written_last_frame = false;
         int resource_previous = -1;

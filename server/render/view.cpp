@@ -32,9 +32,6 @@ glm::vec2 jitter_of(int index)
 
 }  // namespace
 
-/// For what does not depend on the programs.
-const SceneInputs kNoScene;
-
 EffectMask effects_of(const FramePlan& plan)
 {
     const bool averages = plan.refine || plan.settings.denoiser == Denoiser::kAccumulate;
@@ -97,7 +94,8 @@ void View::upload_constants(const RenderRequest& request)
 /// What the scene and the camera's optics give to the stages of this frame.
 FrameInputs View::inputs_of(const RenderRequest& request) const
 {
-    FrameInputs inputs{kNoScene, scene_.look.fog};
+    static const SceneInputs no_scene;  // for what does not depend on the programs
+    FrameInputs inputs{no_scene, scene_.look.fog};
     const Lens& lens = scene_.look.lens;
     const double target = glm::length(request.camera.target - request.camera.position);
     const double focus = lens.focus_distance > 0 ? lens.focus_distance : target;

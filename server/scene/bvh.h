@@ -28,7 +28,7 @@ struct Bvh {
 };
 
 /// Where a missing child's box is: a point that no ray with t <= 1e30 reaches.
-const PrimitiveBounds kNowhereBounds{glm::vec3(3e37F), glm::vec3(3e37F)};
+constexpr PrimitiveBounds kNowhereBounds{glm::vec3(3e37F), glm::vec3(3e37F)};
 
 /// The box of child `child` of the node at texel `at`.
 void set_child_bounds(

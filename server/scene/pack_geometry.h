@@ -5,6 +5,7 @@
 #include "server/scene/flatten.h"
 #include "server/scene/texels.h"
 
+#include <array>
 #include <span>
 
 namespace farlight {
@@ -23,7 +24,7 @@ struct PackedGeometry {
     Texels spheres;
     Texels disks;
     Texels normals;
-    Texels uvs[2];
+    std::array<Texels, 2> uvs;
     Texels tangents;
     Texels colors;
 };

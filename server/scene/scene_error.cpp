@@ -71,8 +71,8 @@ std::string describe(const nlohmann::json& value)
 
 std::string in_quotes(std::string_view text)
 {
-    using Json = nlohmann::json;
-    return shortened(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
+    const nlohmann::json json(text);
+    return shortened(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace farlight

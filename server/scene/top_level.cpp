@@ -18,7 +18,7 @@ constexpr int kBins = 16;
 /// Entries that may wait on the stack beyond what a tree of medians needs: room for the heuristic.
 constexpr int kSlack = 6;
 
-const PrimitiveBounds kEmpty{glm::vec3(std::numeric_limits<float>::infinity()),
+constexpr PrimitiveBounds kEmpty{glm::vec3(std::numeric_limits<float>::infinity()),
     glm::vec3(-std::numeric_limits<float>::infinity())};
 
 PrimitiveBounds united(const PrimitiveBounds& a, const PrimitiveBounds& b)

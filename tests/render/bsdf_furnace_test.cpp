@@ -119,15 +119,15 @@ Scene nested()
     return scene;
 }
 
-struct FurnaceCase {
+struct MaterialFurnaceCase {
     const char* name;
     Scene scene;
     double tolerance = 2e-3;
 
-    friend void PrintTo(const FurnaceCase& c, std::ostream* out) { *out << c.name; }
+    friend void PrintTo(const MaterialFurnaceCase& c, std::ostream* out) { *out << c.name; }
 };
 
-class WhiteFurnace : public GlTest, public testing::WithParamInterface<FurnaceCase> { };
+class WhiteFurnace : public GlTest, public testing::WithParamInterface<MaterialFurnaceCase> { };
 
 TEST_P(WhiteFurnace, EverythingWhiteDisappears)
 {
@@ -148,21 +148,25 @@ TEST_P(WhiteFurnace, EverythingWhiteDisappears)
 }
 
 INSTANTIATE_TEST_SUITE_P(Bsdf, WhiteFurnace,
-    testing::Values(FurnaceCase{"Metal", ball(white(1, 0.6F))},
-        FurnaceCase{"Mirror", ball(white(1, 0))}, FurnaceCase{"Plastic", ball(plastic(0.4F))},
-        FurnaceCase{"Polished", ball(plastic(0))},
-        FurnaceCase{"Coated", ball(coated(plastic(0.6F), 0.2F))},
-        FurnaceCase{"Lacquer", ball(coated(white(0, 1), 0))}, FurnaceCase{"Glass", ball(glass(0))},
-        FurnaceCase{"RoughGlass", ball(glass(0.5F)), 6e-3}, FurnaceCase{"Bubble", ball(thin(0))},
-        FurnaceCase{"FrostedBubble", ball(thin(0.5F))}, FurnaceCase{"Nested", nested(), 6e-3},
-        FurnaceCase{"LambertRelief", rough_relief(white(0, 1))},
-        FurnaceCase{"MetalRelief", rough_relief(white(1, 0.5F))},
-        FurnaceCase{"MirrorRelief", rough_relief(white(1, 0))},
-        FurnaceCase{"PlasticRelief", rough_relief(plastic(0.4F))},
-        FurnaceCase{"BubbleRelief", rough_relief(thin(0.4F))},
-        FurnaceCase{"LambertBumps", smooth_bumps(white(0, 1))},
-        FurnaceCase{"MetalBumps", smooth_bumps(white(1, 0.3F))},
-        FurnaceCase{"GlassBumps", smooth_bumps(glass(0)), 4e-3}),
+    testing::Values(MaterialFurnaceCase{"Metal", ball(white(1, 0.6F))},
+        MaterialFurnaceCase{"Mirror", ball(white(1, 0))},
+        MaterialFurnaceCase{"Plastic", ball(plastic(0.4F))},
+        MaterialFurnaceCase{"Polished", ball(plastic(0))},
+        MaterialFurnaceCase{"Coated", ball(coated(plastic(0.6F), 0.2F))},
+        MaterialFurnaceCase{"Lacquer", ball(coated(white(0, 1), 0))},
+        MaterialFurnaceCase{"Glass", ball(glass(0))},
+        MaterialFurnaceCase{"RoughGlass", ball(glass(0.5F)), 6e-3},
+        MaterialFurnaceCase{"Bubble", ball(thin(0))},
+        MaterialFurnaceCase{"FrostedBubble", ball(thin(0.5F))},
+        MaterialFurnaceCase{"Nested", nested(), 6e-3},
+        MaterialFurnaceCase{"LambertRelief", rough_relief(white(0, 1))},
+        MaterialFurnaceCase{"MetalRelief", rough_relief(white(1, 0.5F))},
+        MaterialFurnaceCase{"MirrorRelief", rough_relief(white(1, 0))},
+        MaterialFurnaceCase{"PlasticRelief", rough_relief(plastic(0.4F))},
+        MaterialFurnaceCase{"BubbleRelief", rough_relief(thin(0.4F))},
+        MaterialFurnaceCase{"LambertBumps", smooth_bumps(white(0, 1))},
+        MaterialFurnaceCase{"MetalBumps", smooth_bumps(white(1, 0.3F))},
+        MaterialFurnaceCase{"GlassBumps", smooth_bumps(glass(0)), 4e-3}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

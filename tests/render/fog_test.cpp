@@ -10,7 +10,7 @@ namespace farlight {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr Extent kExtent{32, 24};
+constexpr Extent kFogExtent{32, 24};
 
 /// A black ball far below the view gives the scene its size, and so the fog its own.
 Scene foggy(const Medium& medium, double size)
@@ -36,7 +36,7 @@ RenderSettings settings_of(int max_depth, int samples)
 Image mean_picture(const TestScene& scene, const RenderSettings& settings, int frames)
 {
     View view(scene.shared);
-    const RenderRequest request = linear_request(scene.scene, kExtent, settings);
+    const RenderRequest request = linear_request(scene.scene, kFogExtent, settings);
     RenderedFrame frame;
     for (int i = 0; i < frames; ++i)
         frame = view.render(request);
@@ -55,11 +55,11 @@ TEST_F(GlTest, AbsorbingFogFollowsBeerAndLambert)
     scene.camera = {{0.2, -0.1, 3}, {0, 0, 0}, {0, 1, 0}, 50};
     const TestScene on_device(scene);
     const Image image = mean_picture(on_device, settings_of(4, 1), 1);
-    const shared::CameraConstants camera = camera_constants(scene.camera, kExtent);
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x) {
-            const double u = (x + 0.5) / kExtent.width * 2 - 1;
-            const double v = (y + 0.5) / kExtent.height * 2 - 1;
+    const shared::CameraConstants camera = camera_constants(scene.camera, kFogExtent);
+    for (int y = 0; y < kFogExtent.height; ++y)
+        for (int x = 0; x < kFogExtent.width; ++x) {
+            const double u = (x + 0.5) / kFogExtent.width * 2 - 1;
+            const double v = (y + 0.5) / kFogExtent.height * 2 - 1;
             const glm::dvec3 way = glm::dvec3(camera.forward) + u * glm::dvec3(camera.right)
                 - v * glm::dvec3(camera.up);
             const double distance = glm::length(way) * 3 / -way.z;
@@ -94,8 +94,8 @@ TEST_P(WhiteFogTest, VanishesUnderAWhiteSky)
     RenderSettings s = settings_of(64, grey ? 8 : 256);
     const Image image = mean_picture(on_device, s, 1);
     if (grey) {
-        for (int y = 0; y < kExtent.height; ++y)
-            for (int x = 0; x < kExtent.width; ++x)
+        for (int y = 0; y < kFogExtent.height; ++y)
+            for (int x = 0; x < kFogExtent.width; ++x)
                 // 1e-4: weights of up to 64 vertices, each off by an ulp or two, and as many steps
                 ASSERT_NEAR(pixel(image, x, y).x, 1, 1e-4) << x << "," << y;
     } else {
@@ -205,12 +205,12 @@ TEST_F(GlTest, FilterKeepsFogWhereItIs)
     View view(on_device.shared);
     RenderSettings s = settings_of(64, 1);
     s.denoiser = Denoiser::kSvgf;
-    const RenderRequest request = linear_request(scene, kExtent, s);
+    const RenderRequest request = linear_request(scene, kFogExtent, s);
     for (int frame = 0; frame < 4; ++frame) {
         const RenderedFrame drawn = view.render(request);
         ASSERT_EQ(drawn.nonfinite_count, 0U);
-        for (int y = 0; y < kExtent.height; ++y)
-            for (int x = 0; x < kExtent.width; ++x)
+        for (int y = 0; y < kFogExtent.height; ++y)
+            for (int x = 0; x < kFogExtent.width; ++x)
                 // 0.05: the opacities that the filter lets through, which here are the light itself
                 ASSERT_NEAR(pixel(drawn.image, x, y).x, 1, 0.05) << x << "," << y;
     }

@@ -6,7 +6,7 @@
 namespace farlight {
 namespace {
 
-constexpr Extent kExtent{16, 8};
+constexpr Extent kFrameGraphExtent{16, 8};
 
 constexpr const char* kAddOne = R"(#version 450
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -33,7 +33,7 @@ protected:
     {
         add_shader_file("tests/add_one", kAddOne);
         add_shader_file("tests/fill", kFill);
-        graph.begin_frame(kExtent, {});
+        graph.begin_frame(kFrameGraphExtent, {});
     }
     TextureHandle filled(float amount)
     {
@@ -54,7 +54,8 @@ protected:
     {
         Readback readback;
         readback.begin(graph.texture(texture));
-        return pixel(readback.finish(), kExtent.width - 1, kExtent.height - 1).x;
+        return pixel(readback.finish(), kFrameGraphExtent.width - 1, kFrameGraphExtent.height - 1)
+            .x;
     }
     void expect_refused(const std::string& part_a, const std::string& part_b)
     {
@@ -90,7 +91,7 @@ TEST_F(FrameGraphTest, TransientMemoryIsReused)
     for (int i = 0; i < 10; ++i)
         texture = plus(texture, 1);
     graph.execute();
-    EXPECT_EQ(graph.texture_bytes(), 2U * 16 * kExtent.width * kExtent.height);
+    EXPECT_EQ(graph.texture_bytes(), 2U * 16 * kFrameGraphExtent.width * kFrameGraphExtent.height);
 }
 
 /// Memory that a pass still reads is written again only behind a barrier, even if the writer reads
@@ -120,7 +121,7 @@ TEST_F(FrameGraphTest, PassesThatShareNothingNeedNoBarrier)
 TEST_F(FrameGraphTest, HistoryIsLastFramesCurrent)
 {
     for (int frame = 0; frame < 5; ++frame) {
-        graph.begin_frame(kExtent, {});
+        graph.begin_frame(kFrameGraphExtent, {});
         const History history = graph.history("count", GL_RGBA32F);
         EXPECT_EQ(history.valid, frame > 0);
         graph.add_pass("add", "tests/add_one")
@@ -143,12 +144,12 @@ TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndAfterAResi
         graph.execute();
         return history.valid;
     };
-    EXPECT_FALSE(write(kExtent));
-    EXPECT_TRUE(write(kExtent));
-    graph.begin_frame(kExtent, {});  // a frame without the pass
+    EXPECT_FALSE(write(kFrameGraphExtent));
+    EXPECT_TRUE(write(kFrameGraphExtent));
+    graph.begin_frame(kFrameGraphExtent, {});  // a frame without the pass
     graph.execute();
-    EXPECT_FALSE(write(kExtent));
-    EXPECT_TRUE(write(kExtent));
+    EXPECT_FALSE(write(kFrameGraphExtent));
+    EXPECT_TRUE(write(kFrameGraphExtent));
     EXPECT_FALSE(write({8, 8}));
 }
 
@@ -170,7 +171,7 @@ TEST_F(FrameGraphTest, AfterAResizeEveryTextureHasTheNewSize)
             EXPECT_EQ(graph.texture(texture).extent(), extent);
         EXPECT_EQ(graph.texture_bytes(), 4U * 16 * extent.width * extent.height);
     };
-    for (const Extent extent : {kExtent, Extent{24, 16}, Extent{8, 8}, kExtent})
+    for (const Extent extent : {kFrameGraphExtent, Extent{24, 16}, Extent{8, 8}, kFrameGraphExtent})
         draw(extent);
 }
 

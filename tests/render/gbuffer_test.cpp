@@ -6,26 +6,26 @@
 namespace farlight {
 namespace {
 
-constexpr Extent kExtent{97, 61};
+constexpr Extent kGbufferExtent{97, 61};
 
 /// Pixel coordinates and view depth of a world position, in double.
 glm::dvec3 project(const CameraPose& pose, const glm::dvec3& position)
 {
     const CameraBasis basis = camera_basis(pose);
     const double half_height = std::tan(glm::radians(pose.vertical_fov_degrees) / 2);
-    const double half_width = half_height * kExtent.width / kExtent.height;
+    const double half_width = half_height * kGbufferExtent.width / kGbufferExtent.height;
     const glm::dvec3 v = position - pose.position;
     const double depth = glm::dot(v, basis.forward);
     const double x = glm::dot(v, basis.right) / (depth * half_width);
     const double y = glm::dot(v, basis.up) / (depth * half_height);
-    return {(x + 1) / 2 * kExtent.width, (1 - y) / 2 * kExtent.height, depth};
+    return {(x + 1) / 2 * kGbufferExtent.width, (1 - y) / 2 * kGbufferExtent.height, depth};
 }
 
 Image view_of(View& view, const Scene& scene, const CameraPose& camera, DebugView which)
 {
     RenderSettings settings;
     settings.view = which;
-    RenderRequest request = linear_request(scene, kExtent, settings);
+    RenderRequest request = linear_request(scene, kGbufferExtent, settings);
     request.camera = camera;
     return view.render(request).image;
 }
@@ -57,8 +57,8 @@ TEST_P(MotionTest, EqualsADoublePrecisionReprojection)
     const Image motion = view_of(moving, scene, now, DebugView::kMotion);
 
     int met = 0;
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x) {
+    for (int y = 0; y < kGbufferExtent.height; ++y)
+        for (int x = 0; x < kGbufferExtent.width; ++x) {
             const glm::dvec3 p = pixel(position, x, y);
             if (p == glm::dvec3(0))
                 continue;
@@ -69,7 +69,7 @@ TEST_P(MotionTest, EqualsADoublePrecisionReprojection)
             ASSERT_NEAR(pixel(motion, x, y).z, expected.z, 1e-5 * scene_bounds(scene).radius())
                 << x << "," << y;
         }
-    EXPECT_GT(met, kExtent.width * kExtent.height / 4);
+    EXPECT_GT(met, kGbufferExtent.width * kGbufferExtent.height / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Moves, MotionTest,
@@ -85,8 +85,8 @@ TEST_F(GlTest, RestingCameraHasExactlyNoMotion)
     View view(on_device.shared);
     view_of(view, scene, scene.camera, DebugView::kMotion);
     const Image motion = view_of(view, scene, scene.camera, DebugView::kMotion);
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x)
+    for (int y = 0; y < kGbufferExtent.height; ++y)
+        for (int x = 0; x < kGbufferExtent.width; ++x)
             ASSERT_EQ(pixel(motion, x, y), glm::vec3(0)) << x << "," << y;
 }
 
@@ -101,8 +101,8 @@ TEST_F(GlTest, DepthGradientIsThePlanesOwn)
     View view(on_device.shared);
     const Image depth = view_of(view, scene, scene.camera, DebugView::kDepth);
     const Image gradient = view_of(view, scene, scene.camera, DebugView::kDepthGradient);
-    for (int y = 1; y + 1 < kExtent.height; ++y)
-        for (int x = 1; x + 1 < kExtent.width; ++x) {
+    for (int y = 1; y + 1 < kGbufferExtent.height; ++y)
+        for (int x = 1; x + 1 < kGbufferExtent.width; ++x) {
             const glm::vec3 g = pixel(gradient, x, y);
             // Depth is z(p) = c / (a . p + b) on a plane: its reciprocal is linear, so central
             // differences of 1/z are exact, and dz = -z^2 d(1/z).
@@ -156,9 +156,9 @@ TEST_P(SelfIntersectionTest, WhiteThingsUnderAWhiteSkyVanish)
     s.roulette_depth = 64;
     s.samples_per_pixel = 8;
     View view(on_device.shared);
-    const Image image = view.render(linear_request(on_device.scene, kExtent, s)).image;
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x)
+    const Image image = view.render(linear_request(on_device.scene, kGbufferExtent, s)).image;
+    for (int y = 0; y < kGbufferExtent.height; ++y)
+        for (int x = 0; x < kGbufferExtent.width; ++x)
             ASSERT_NEAR(pixel(image, x, y).x, 1, 1e-4) << x << "," << y;
 }
 

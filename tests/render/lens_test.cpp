@@ -6,7 +6,7 @@
 namespace farlight {
 namespace {
 
-constexpr Extent kExtent{96, 96};
+constexpr Extent kLensExtent{96, 96};
 constexpr double kFocus = 4;
 
 /// A square that shines, `half` wide to either side of the axis, at view depth z.
@@ -29,7 +29,7 @@ Image mean_emission(const Scene& scene, int frames, bool antialiasing)
     s.denoiser = Denoiser::kAccumulate;
     s.antialiasing = antialiasing;
     s.max_depth = 1;
-    const RenderRequest request = linear_request(scene, kExtent, s);
+    const RenderRequest request = linear_request(scene, kLensExtent, s);
     RenderedFrame frame;
     for (int i = 0; i < frames; ++i)
         frame = view.render(request);
@@ -44,11 +44,11 @@ struct Moments {
 Moments moments_of(const Image& image)
 {
     Moments m;
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x) {
+    for (int y = 0; y < kLensExtent.height; ++y)
+        for (int x = 0; x < kLensExtent.width; ++x) {
             const double value = pixel(image, x, y).x;
-            const double dx = x + 0.5 - kExtent.width / 2.0;
-            const double dy = y + 0.5 - kExtent.height / 2.0;
+            const double dx = x + 0.5 - kLensExtent.width / 2.0;
+            const double dy = y + 0.5 - kLensExtent.height / 2.0;
             m.sum += value;
             m.radius2 += value * (dx * dx + dy * dy);
         }
@@ -75,7 +75,7 @@ TEST_P(LensTest, BlursToTheRadiusOfItsGeometryAndLosesNothing)
     const Moments sharp = moments_of(mean_emission(lamp_at(depth, half, 0), 1, false));
     const Moments blurred =
         moments_of(mean_emission(lamp_at(depth, half, lens_radius), 256, false));
-    const double footprint = camera_constants(lamp_at(1, 1, 0).camera, kExtent).pixel_footprint;
+    const double footprint = camera_constants(lamp_at(1, 1, 0).camera, kLensExtent).pixel_footprint;
     const double radius =
         lens_radius * std::abs(depth - kFocus) / depth / (footprint * kFocus);  // [px]
     ASSERT_GT(radius, 4) << "too little to measure";
@@ -96,8 +96,8 @@ TEST_F(GlTest, PlaneOfFocusIsSharp)
 {
     const Image sharp = mean_emission(lamp_at(kFocus, 0.5, 0), 1, false);
     const Image focused = mean_emission(lamp_at(kFocus, 0.5, 0.8), 16, false);
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x)
+    for (int y = 0; y < kLensExtent.height; ++y)
+        for (int x = 0; x < kLensExtent.width; ++x)
             ASSERT_EQ(pixel(focused, x, y), pixel(sharp, x, y)) << x << "," << y;
 }
 
@@ -121,11 +121,11 @@ TEST_F(GlTest, OutOfFocusARestingCameraHasNoMotion)
     View view(on_device.shared);
     RenderSettings s;
     s.view = DebugView::kMotion;
-    const RenderRequest request = linear_request(on_device.scene, kExtent, s);
+    const RenderRequest request = linear_request(on_device.scene, kLensExtent, s);
     view.render(request);
     const Image motion = view.render(request).image;
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x)
+    for (int y = 0; y < kLensExtent.height; ++y)
+        for (int x = 0; x < kLensExtent.width; ++x)
             ASSERT_EQ(pixel(motion, x, y), glm::vec3(0)) << x << "," << y;
 }
 
@@ -133,13 +133,13 @@ TEST_F(GlTest, OutOfFocusARestingCameraHasNoMotion)
 /// part of it.
 TEST_F(GlTest, AveragedPixelsAreAntialiased)
 {
-    const double footprint = camera_constants(lamp_at(1, 1, 0).camera, kExtent).pixel_footprint;
+    const double footprint = camera_constants(lamp_at(1, 1, 0).camera, kLensExtent).pixel_footprint;
     for (const double edge : {10.05, 10.25, 10.6, 10.8}) {
         const Scene scene = lamp_at(1, edge * footprint, 0);
         const Image smooth = mean_emission(scene, 256, true);
         const Image stepped = mean_emission(scene, 2, false);
-        const int x = kExtent.width / 2 + 10;  // the pixel from 10 to 11
-        const int y = kExtent.height / 2;
+        const int x = kLensExtent.width / 2 + 10;  // the pixel from 10 to 11
+        const int y = kLensExtent.height / 2;
         // Halton points: 256 of them measure a half-plane to better than log(256) / 256.
         EXPECT_NEAR(pixel(smooth, x, y).x, edge - 10, 0.02) << edge;
         EXPECT_NEAR(pixel(smooth, x - 1, y).x, 1, 1e-5);

@@ -42,7 +42,7 @@ Scene plane_under(const std::function<void(Scene&)>& add_lights)
     return scene;
 }
 
-void add_light(Scene& scene, const std::variant<Sphere, Quad, MeshInstance, Disk>& shape)
+void place_light(Scene& scene, const std::variant<Sphere, Quad, MeshInstance, Disk>& shape)
 {
     scene.objects.push_back({"light", 1, shape});
 }
@@ -80,7 +80,7 @@ TEST_P(IrradianceTest, LightAndBsdfSamplingGiveTheClosedForm)
 
 std::function<void(Scene&)> shape(const std::variant<Sphere, Quad, MeshInstance, Disk>& shape)
 {
-    return [=](Scene& scene) { add_light(scene, shape); };
+    return [=](Scene& scene) { place_light(scene, shape); };
 }
 
 Quad unit_quad_above(double height, const glm::dvec3& offset)
@@ -101,7 +101,7 @@ std::function<void(Scene&)> split_quad(int n)
         const double side = 1.0 / n;
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j)
-                add_light(
+                place_light(
                     scene, Quad{{-0.5 + i * side, 1, -0.5 + j * side}, {side, 0, 0}, {0, 0, side}});
     };
 }
@@ -122,18 +122,18 @@ std::function<void(Scene&)> quad_mesh(unsigned n)
                 mesh.triangles.emplace_back(at, at + n + 2, at + 1);
             }
         scene.meshes.push_back(mesh);
-        add_light(scene, MeshInstance{});
+        place_light(scene, MeshInstance{});
     };
 }
 
 /// The triangle (1, .2, 2), (-.5, 1, 1.5), (-.7, -.9, 2.5) over a plane whose normal is z, turned
 /// so that it is y, facing down.
-void add_triangle(Scene& scene)
+void place_triangle(Scene& scene)
 {
     scene.meshes.push_back(
         {"triangle", {{1, 2, .2}, {-.5, 1.5, 1}, {-.7, 2.5, -.9}}, {}, {{0, 1, 2}}});
     scene.materials[1].emits_both_sides = true;
-    add_light(scene, MeshInstance{});
+    place_light(scene, MeshInstance{});
 }
 
 std::function<void(Scene&)> punctual(const PunctualLight& light)
@@ -191,7 +191,7 @@ const std::vector<IrradianceCase>& irradiance_cases()
         {"QuadInNineParts", 0.75227469, split_quad(3)},
         {"QuadOfTwoTriangles", 0.75227469, quad_mesh(1)},
         {"QuadOf128Triangles", 0.75227469, quad_mesh(8)},
-        {"Triangle", 0.34712344, add_triangle},
+        {"Triangle", 0.34712344, place_triangle},
         {"Disk", pi / 5, shape(Disk{{0, 2, 0}, {0, -1, 0}, 1})},  // pi r^2 / (r^2 + h^2)
         // pi (r/d)^2 cos(theta) clear of the horizon; cut by it: Snyder's closed form, recomputed
         // by quadrature.
@@ -251,13 +251,13 @@ TEST_P(PatternTest, LightAndBsdfSamplingAgreeOnAQuadAndOnAMesh)
         const TestScene scene(plane_under([&](Scene& s) {
             GetParam().dress(s);
             if (!mesh) {
-                add_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
+                place_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
                 return;
             }
             s.meshes.push_back(
                 {"quad", {{0, 1, 0}, {1, 1, 0}, {1, 1, 1}, {0, 1, 1}}, {}, {{0, 1, 2}, {0, 2, 3}}});
             s.meshes[0].uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-            add_light(s, MeshInstance{});
+            place_light(s, MeshInstance{});
         }));
         const double expected = 0.5 / pi * GetParam().expected;
         for (const bool light_sampling : {true, false}) {
@@ -302,8 +302,8 @@ INSTANTIATE_TEST_SUITE_P(Lights, PatternTest,
 TEST_F(GlTest, LightsOfSeveralKindsAddUp)
 {
     const TestScene scene(plane_under([](Scene& s) {
-        add_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
-        add_light(s, sphere_at_angle(2, 0.5, -0.6));
+        place_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
+        place_light(s, sphere_at_angle(2, 0.5, -0.6));
         s.lights.push_back({.intensity = glm::vec3(3),
             .position = 2.0 * glm::dvec3(0, std::cos(0.5), -std::sin(0.5))});
         s.lights.push_back({.kind = PunctualLight::Kind::kDirectional,

@@ -9,13 +9,13 @@
 namespace farlight {
 namespace {
 
-constexpr Extent kExtent{97, 61};
+constexpr Extent kMotionExtent{97, 61};
 
 Image view_of(View& view, const Scene& scene, DebugView which, double time)
 {
     RenderSettings settings;
     settings.view = which;
-    RenderRequest request = linear_request(scene, kExtent, settings);
+    RenderRequest request = linear_request(scene, kMotionExtent, settings);
     request.time = time;
     return view.render(request).image;
 }
@@ -93,8 +93,8 @@ TEST_P(InstanceTest, LooksLikeTheSameThingAtRest)
             : which == DebugView::kObjectId                    ? 0
                                                                : 0.02;
         int different = 0;
-        for (int y = 0; y < kExtent.height; ++y)
-            for (int x = 0; x < kExtent.width; ++x)
+        for (int y = 0; y < kMotionExtent.height; ++y)
+            for (int x = 0; x < kMotionExtent.width; ++x)
                 different += glm::distance(pixel(a, x, y), pixel(b, x, y)) <= tolerance ? 0 : 1;
         // An outline may fall on either side of a pixel's middle.
         EXPECT_LE(different, 5) << static_cast<int>(which);
@@ -112,11 +112,11 @@ TEST_P(InstanceTest, IsNotMetAgainByRaysThatLeaveIt)
     s.roulette_depth = 64;
     s.samples_per_pixel = 4;
     View view(on_device.shared);
-    RenderRequest request = linear_request(on_device.scene, kExtent, s);
+    RenderRequest request = linear_request(on_device.scene, kMotionExtent, s);
     request.time = 1;
     const Image image = view.render(request).image;
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x)
+    for (int y = 0; y < kMotionExtent.height; ++y)
+        for (int x = 0; x < kMotionExtent.width; ++x)
             ASSERT_NEAR(pixel(image, x, y).x, 1, 1e-4) << x << "," << y;
 }
 
@@ -142,8 +142,8 @@ TEST_F(GlTest, PausedThingsHaveExactlyNoMotion)
         View view(on_device.shared);
         view_of(view, on_device.scene, DebugView::kMotion, 0.4);
         const Image motion = view_of(view, on_device.scene, DebugView::kMotion, 0.4);
-        for (int y = 0; y < kExtent.height; ++y)
-            for (int x = 0; x < kExtent.width; ++x)
+        for (int y = 0; y < kMotionExtent.height; ++y)
+            for (int x = 0; x < kMotionExtent.width; ++x)
                 ASSERT_EQ(pixel(motion, x, y), glm::vec3(0)) << x << "," << y;
     }
 }

@@ -9,7 +9,7 @@
 namespace farlight {
 namespace {
 
-constexpr Extent kExtent{48, 48};
+constexpr Extent kPathExtent{48, 48};
 
 RenderSettings settings_of(int max_depth, int samples)
 {
@@ -25,7 +25,7 @@ RenderSettings settings_of(int max_depth, int samples)
 Image picture(const TestScene& scene, const RenderSettings& settings)
 {
     View view(scene.shared);
-    RenderedFrame frame = view.render(linear_request(scene.scene, kExtent, settings));
+    RenderedFrame frame = view.render(linear_request(scene.scene, kPathExtent, settings));
     EXPECT_EQ(frame.nonfinite_count, 0U);
     return std::move(frame.image);
 }
@@ -176,7 +176,7 @@ TEST_F(GlTest, MirrorsFacingEachOtherMultiplyTheirReflectances)
     const Image image = picture(on_device, settings_of(16, 1));
     // Unfolded, the ray is at height -20 * slope = -9 at the end: mirrors at -1, -3, -5, -7 and,
     // where the ray just reaches -9, the end itself comes first or last.
-    const glm::vec3 middle = pixel(image, kExtent.width / 2, kExtent.height / 4);
+    const glm::vec3 middle = pixel(image, kPathExtent.width / 2, kPathExtent.height / 4);
     const double cosine = slope / std::hypot(1, slope);
     for (int c = 0; c < 3; ++c) {
         // glTF's conductors: Schlick's approximation from the albedo at a right angle.
@@ -285,7 +285,7 @@ TEST_F(GlTest, NothingIsTracedWhereNothingScatters)
         scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 40};
         const TestScene on_device(scene);
         View view(on_device.shared);
-        const Image image = view.render(linear_request(scene, kExtent, {})).image;
+        const Image image = view.render(linear_request(scene, kPathExtent, {})).image;
         for (const std::string& pass : view.graph().pass_names())
             EXPECT_TRUE(pass == "gbuffer" || pass.starts_with("composite")) << pass;
         const float expected = scene.materials[0].name == "white" ? 0 : 1;

@@ -65,19 +65,19 @@ TEST_P(ShippedAnswersTest, IsWhatTheReadmeSays)
     s.denoiser = Denoiser::kAccumulate;
     s.max_depth = answer.max_depth;
     s.samples_per_pixel = 64;
-    constexpr Extent kExtent{48, 32};
+    constexpr Extent kAnswerExtent{48, 32};
     View view(on_device.shared);
-    const RenderedFrame frame = view.render(linear_request(on_device.scene, kExtent, s));
+    const RenderedFrame frame = view.render(linear_request(on_device.scene, kAnswerExtent, s));
     EXPECT_EQ(frame.nonfinite_count, 0U);
     glm::dvec3 sum(0);
     glm::dvec3 squares(0);
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x) {
+    for (int y = 0; y < kAnswerExtent.height; ++y)
+        for (int x = 0; x < kAnswerExtent.width; ++x) {
             const glm::dvec3 value = pixel(frame.image, x, y);
             sum += value;
             squares += value * value;
         }
-    const double count = kExtent.width * kExtent.height;
+    const double count = kAnswerExtent.width * kAnswerExtent.height;
     for (int channel = 0; channel < 3; ++channel) {
         const double mean = sum[channel] / count;
         const double variance = std::max(0.0, squares[channel] / count - mean * mean);

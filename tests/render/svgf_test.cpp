@@ -8,13 +8,13 @@
 namespace farlight {
 namespace {
 
-constexpr Extent kExtent{64, 48};
+constexpr Extent kSvgfExtent{64, 48};
 
 RenderRequest request_view(const Scene& scene, DebugView which)
 {
     RenderSettings settings;
     settings.view = which;
-    return linear_request(scene, kExtent, settings);
+    return linear_request(scene, kSvgfExtent, settings);
 }
 
 class SvgfTest : public GlTest { };
@@ -28,8 +28,8 @@ TEST_F(SvgfTest, HistoryLengthCountsFramesEverywhereUnderAStillCamera)
     request.settings.history_max = 6;
     for (int frame = 1; frame <= 9; ++frame) {
         const Image length = view.render(request).image;
-        for (int y = 0; y < kExtent.height; ++y)
-            for (int x = 0; x < kExtent.width; ++x)
+        for (int y = 0; y < kSvgfExtent.height; ++y)
+            for (int x = 0; x < kSvgfExtent.width; ++x)
                 ASSERT_EQ(pixel(length, x, y).x, std::min(frame, 6))
                     << x << "," << y << " frame " << frame;
     }
@@ -68,9 +68,9 @@ TEST_F(SvgfTest, NewlyRevealedPixelsStartWithOneFrame)
 
     int revealed = 0;
     int kept = 0;
-    const double pixels_per_unit = kExtent.height / 2.0 / std::tan(glm::radians(22.5));
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x) {
+    const double pixels_per_unit = kSvgfExtent.height / 2.0 / std::tan(glm::radians(22.5));
+    for (int y = 0; y < kSvgfExtent.height; ++y)
+        for (int x = 0; x < kSvgfExtent.width; ++x) {
             // Where the surface was, from its position alone; two pixels from any edge of ball or
             // frame.
             const glm::vec3 p = pixel(positions, x, y);
@@ -82,9 +82,9 @@ TEST_F(SvgfTest, NewlyRevealedPixelsStartWithOneFrame)
             bool outside = true;
             for (int dy = -2; dy <= 2; ++dy)
                 for (int dx = -2; dx <= 2; ++dx) {
-                    const bool in = old_x + dx >= 0 && old_x + dx < kExtent.width && y + dy >= 0
-                        && y + dy < kExtent.height;
-                    outside = outside && old_x + dx >= kExtent.width;
+                    const bool in = old_x + dx >= 0 && old_x + dx < kSvgfExtent.width && y + dy >= 0
+                        && y + dy < kSvgfExtent.height;
+                    outside = outside && old_x + dx >= kSvgfExtent.width;
                     const float id = in ? pixel(old_ids, old_x + dx, y + dy).x : -1;
                     same = same && id == pixel(ids, x, y).x;
                     other = other && in && id != pixel(ids, x, y).x;
@@ -98,7 +98,7 @@ TEST_F(SvgfTest, NewlyRevealedPixelsStartWithOneFrame)
             }
         }
     EXPECT_GT(revealed, 20);
-    EXPECT_GT(kept, kExtent.width * kExtent.height / 2);
+    EXPECT_GT(kept, kSvgfExtent.width * kSvgfExtent.height / 2);
 }
 
 /// A cut forgets everything: lengths start at one, random numbers start over.
@@ -106,7 +106,7 @@ TEST_F(SvgfTest, CutRestartsHistoryAndRandomNumbers)
 {
     const TestScene scene(room_with(bumpy_sphere(24, 12)));
     View view(scene.shared);
-    RenderRequest request = linear_request(scene.scene, kExtent, {});
+    RenderRequest request = linear_request(scene.scene, kSvgfExtent, {});
     const RenderedFrame first = view.render(request);
     EXPECT_TRUE(first.history_reset);
     EXPECT_FALSE(view.render(request).history_reset);
@@ -121,7 +121,7 @@ TEST_F(SvgfTest, SameSeedSameBytesAndAnotherSeedOthers)
     const TestScene scene(room_with(bumpy_sphere(24, 12)));
     const auto run = [&](std::uint32_t seed) {
         View view(scene.shared);
-        RenderRequest request = linear_request(scene.scene, kExtent, {});
+        RenderRequest request = linear_request(scene.scene, kSvgfExtent, {});
         request.settings.seed = seed;
         for (int i = 0; i < 3; ++i) {
             request.camera.position.x += 0.01;
@@ -151,15 +151,15 @@ TEST_F(SvgfTest, ConstantPictureStaysConstant)
     }
     const TestScene on_device(scene);
     View view(on_device.shared);
-    RenderRequest request = linear_request(scene, kExtent, {});
+    RenderRequest request = linear_request(scene, kSvgfExtent, {});
     request.settings.light_sampling = false;
     request.settings.roulette_depth = 64;
     const glm::dvec3 drift = 0.02 * (scene.camera.target - scene.camera.position);
     for (int frame = 0; frame < 12; ++frame) {
         const RenderedFrame drawn = view.render(request);
         ASSERT_EQ(drawn.nonfinite_count, 0U);
-        for (int y = 0; y < kExtent.height; ++y)
-            for (int x = 0; x < kExtent.width; ++x)
+        for (int y = 0; y < kSvgfExtent.height; ++y)
+            for (int x = 0; x < kSvgfExtent.width; ++x)
                 for (int c = 0; c < 3; ++c)
                     ASSERT_NEAR(pixel(drawn.image, x, y)[c], 1.875, 1.875e-5)
                         << x << "," << y << " frame " << frame;
@@ -176,7 +176,7 @@ TEST_F(SvgfTest, RemodulationIsTheInverseOfDemodulation)
     const TestScene on_device(scene);
     const auto render = [&](Denoiser denoiser) {
         View view(on_device.shared);
-        RenderRequest request = linear_request(scene, kExtent, {});
+        RenderRequest request = linear_request(scene, kSvgfExtent, {});
         request.settings.denoiser = denoiser;
         request.settings.atrous_iterations = 0;
         return view.render(request).image.bytes;
@@ -195,7 +195,7 @@ TEST_F(SvgfTest, EmittersAndSkyBypassTheFilter)
     scene.camera = {{0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 45};
     const TestScene on_device(scene);
     View view(on_device.shared);
-    RenderRequest request = linear_request(scene, kExtent, {});
+    RenderRequest request = linear_request(scene, kSvgfExtent, {});
     RenderedFrame frame;
     for (int i = 0; i < 5; ++i)
         frame = view.render(request);
@@ -203,8 +203,8 @@ TEST_F(SvgfTest, EmittersAndSkyBypassTheFilter)
     const Image ids = ids_view.render(request_view(scene, DebugView::kEmission)).image;
     int lights = 0;
     int sky = 0;
-    for (int y = 0; y < kExtent.height; ++y)
-        for (int x = 0; x < kExtent.width; ++x) {
+    for (int y = 0; y < kSvgfExtent.height; ++y)
+        for (int x = 0; x < kSvgfExtent.width; ++x) {
             const glm::vec3 emission = pixel(ids, x, y);
             if (emission == glm::vec3(0))
                 continue;

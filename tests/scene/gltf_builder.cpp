@@ -82,13 +82,17 @@ int GltfBuilder::add_mesh(Json primitive)
     return mesh;
 }
 
+std::string glb_container(std::string json, std::string binary)
+{
+    json = padded(std::move(json), ' ');
+    binary = padded(std::move(binary), '\0');
+    return "glTF" + word(2) + word(12 + 8 + json.size() + 8 + binary.size()) + word(json.size())
+        + "JSON" + json + word(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
 void GltfBuilder::write_glb(const std::filesystem::path& file) const
 {
-    const std::string json = padded(document.dump(), ' ');
-    const std::string binary = padded(bytes, '\0');
-    std::ofstream(file, std::ios::binary)
-        << "glTF" << word(2) << word(12 + 8 + json.size() + 8 + binary.size()) << word(json.size())
-        << "JSON" << json << word(binary.size()) << std::string("BIN\0", 4) << binary;
+    std::ofstream(file, std::ios::binary) << glb_container(document.dump(), bytes);
 }
 
 void GltfBuilder::write_gltf(const std::filesystem::path& file, bool embedded) const

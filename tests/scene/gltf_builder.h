@@ -35,6 +35,9 @@ private:
         nlohmann::json accessor);
 };
 
+/// A GLB file of a document and the bytes of its first buffer.
+std::string glb_container(std::string json, std::string binary);
+
 /// "data:TYPE;base64,...".
 std::string data_uri(const std::string& type, std::string_view bytes);
 

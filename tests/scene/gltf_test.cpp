@@ -1,6 +1,7 @@
 // glTF files written here, read back: component types, strides, topologies, transforms, materials.
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
+#include "tests/scene/positions.h"
 #include "tests/scene/temp_folder.h"
 
 #include <algorithm>
@@ -36,19 +37,6 @@ const Mesh& only_mesh(const Scene& scene)
 {
     EXPECT_EQ(scene.meshes.size(), 1U);
     return scene.meshes.at(0);
-}
-
-glm::dvec3 world_position(const Scene& scene, std::size_t object, std::size_t index)
-{
-    const auto& instance = std::get<MeshInstance>(scene.objects.at(object).shape);
-    const glm::vec3 local = scene.meshes.at(instance.mesh).positions.at(index);
-    return instance.world_from_object * glm::dvec4(local, 1);
-}
-
-void expect_near(const glm::dvec3& actual, const glm::dvec3& expected)
-{
-    EXPECT_LE(glm::length(actual - expected), 1e-12)
-        << actual.x << ' ' << actual.y << ' ' << actual.z;
 }
 
 const std::vector<float> kTriangle{0, 0, 0, 1, 0, 0, 0, 1, 0};

@@ -1,6 +1,7 @@
 // What a good Farlight scene turns into.
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
+#include "tests/scene/positions.h"
 #include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
@@ -18,19 +19,6 @@ Scene parse(const std::string& objects, const std::filesystem::path& base_dir = 
             "objects": )"
             + objects + "}",
         base_dir, "test.json");
-}
-
-glm::dvec3 world_position(const Scene& scene, std::size_t object, std::size_t index)
-{
-    const auto& instance = std::get<MeshInstance>(scene.objects.at(object).shape);
-    const glm::vec3 local = scene.meshes.at(instance.mesh).positions.at(index);
-    return instance.world_from_object * glm::dvec4(local, 1);
-}
-
-void expect_near(const glm::dvec3& actual, const glm::dvec3& expected, double tolerance = 1e-12)
-{
-    EXPECT_LE(glm::length(actual - expected), tolerance)
-        << actual.x << ' ' << actual.y << ' ' << actual.z;
 }
 
 TEST(SceneJson, MaterialsKeepTheirNumbers)

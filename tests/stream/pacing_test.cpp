@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Pacing::Time kStart{1h};
+constexpr Pacing::Time kFirstSent{1h};
 
 TEST(Pacing, AllowsAWindowOfFramesAndNoMore)
 {
@@ -22,7 +22,7 @@ TEST(Pacing, AllowsAWindowOfFramesAndNoMore)
     EXPECT_FALSE(pacing.may_start());
     EXPECT_EQ(pacing.in_flight(), 2);
 
-    pacing.sent(1, kStart, std::nullopt);
+    pacing.sent(1, kFirstSent, std::nullopt);
     EXPECT_FALSE(pacing.may_start());  // sent is not acknowledged
     pacing.dropped();
     EXPECT_TRUE(pacing.may_start());
@@ -33,9 +33,9 @@ TEST(Pacing, AcknowledgesAFrameAndAllBeforeIt)
     Pacing pacing(3);
     for (std::uint32_t id = 1; id <= 3; ++id) {
         pacing.started();
-        pacing.sent(id, kStart + id * 1ms, id == 2 ? std::optional(kStart) : std::nullopt);
+        pacing.sent(id, kFirstSent + id * 1ms, id == 2 ? std::optional(kFirstSent) : std::nullopt);
     }
-    const auto shown = pacing.acknowledge(2, kStart + 30ms);
+    const auto shown = pacing.acknowledge(2, kFirstSent + 30ms);
     ASSERT_TRUE(shown.has_value());
     EXPECT_EQ(shown->round_trip, 28ms);
     EXPECT_EQ(shown->since_asked, 30ms);
@@ -45,44 +45,44 @@ TEST(Pacing, AcknowledgesAFrameAndAllBeforeIt)
 TEST(Pacing, RefusesAcknowledgementsOfFramesNotInFlight)
 {
     Pacing pacing(2);
-    EXPECT_FALSE(pacing.acknowledge(0, kStart));
-    EXPECT_FALSE(pacing.acknowledge(1, kStart));
+    EXPECT_FALSE(pacing.acknowledge(0, kFirstSent));
+    EXPECT_FALSE(pacing.acknowledge(1, kFirstSent));
     pacing.started();
-    pacing.sent(1, kStart, std::nullopt);
-    EXPECT_FALSE(pacing.acknowledge(2, kStart));
-    EXPECT_FALSE(pacing.acknowledge(4294967295U, kStart));
+    pacing.sent(1, kFirstSent, std::nullopt);
+    EXPECT_FALSE(pacing.acknowledge(2, kFirstSent));
+    EXPECT_FALSE(pacing.acknowledge(4294967295U, kFirstSent));
     EXPECT_EQ(pacing.in_flight(), 1);
-    EXPECT_TRUE(pacing.acknowledge(1, kStart));
-    EXPECT_FALSE(pacing.acknowledge(1, kStart));  // a second time
+    EXPECT_TRUE(pacing.acknowledge(1, kFirstSent));
+    EXPECT_FALSE(pacing.acknowledge(1, kFirstSent));  // a second time
 }
 
 TEST(Pacing, BlamesTheClientOnlyForFramesTheSocketIsDoneWith)
 {
     Pacing pacing(2);
     pacing.started();
-    pacing.sent(1, kStart, std::nullopt);
-    EXPECT_EQ(pacing.oldest_wait(kStart + 20s), 0s);
-    pacing.written(1, kStart + 20s);
-    EXPECT_EQ(pacing.oldest_wait(kStart + 23s), 3s);
-    pacing.acknowledge(1, kStart + 23s);
-    EXPECT_EQ(pacing.oldest_wait(kStart + 60s), 0s);
+    pacing.sent(1, kFirstSent, std::nullopt);
+    EXPECT_EQ(pacing.oldest_wait(kFirstSent + 20s), 0s);
+    pacing.written(1, kFirstSent + 20s);
+    EXPECT_EQ(pacing.oldest_wait(kFirstSent + 23s), 3s);
+    pacing.acknowledge(1, kFirstSent + 23s);
+    EXPECT_EQ(pacing.oldest_wait(kFirstSent + 60s), 0s);
 }
 
 TEST(TokenBucket, LetsABurstThroughAndThenARate)
 {
-    TokenBucket bucket(10, 5, kStart);
+    TokenBucket bucket(10, 5, kFirstSent);
     for (int i = 0; i < 10; ++i)
-        EXPECT_EQ(bucket.take(kStart), 0s);
-    EXPECT_EQ(bucket.take(kStart), 200ms);  // one token in debt, five a second
-    EXPECT_EQ(bucket.take(kStart + 400ms), 0s);
+        EXPECT_EQ(bucket.take(kFirstSent), 0s);
+    EXPECT_EQ(bucket.take(kFirstSent), 200ms);  // one token in debt, five a second
+    EXPECT_EQ(bucket.take(kFirstSent + 400ms), 0s);
 }
 
 TEST(TokenBucket, NeverHoldsMoreThanTheBurst)
 {
-    TokenBucket bucket(2, 100, kStart);
-    EXPECT_EQ(bucket.take(kStart + 1h), 0s);
-    EXPECT_EQ(bucket.take(kStart + 1h), 0s);
-    EXPECT_GT(bucket.take(kStart + 1h), 0s);
+    TokenBucket bucket(2, 100, kFirstSent);
+    EXPECT_EQ(bucket.take(kFirstSent + 1h), 0s);
+    EXPECT_EQ(bucket.take(kFirstSent + 1h), 0s);
+    EXPECT_GT(bucket.take(kFirstSent + 1h), 0s);
 }
 
 TEST(Latest, KeepsTheNewestValue)

@@ -1,6 +1,8 @@
 // The values that take the place of others are those that loaders trip over.
 #include "tests/scene/fuzz/mutation.h"
 
+#include "tests/scene/gltf_builder.h"
+
 #include <nlohmann/json.hpp>
 
 namespace farlight {
@@ -20,14 +22,6 @@ std::uint32_t word_at(std::string_view bytes, std::size_t offset)
     for (std::size_t i = 0; i < 4; ++i)
         word |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[offset + i])) << 8 * i;
     return word;
-}
-
-std::string word(std::size_t value)
-{
-    std::string bytes;
-    for (unsigned shift = 0; shift < 32; shift += 8)
-        bytes += static_cast<char>((value >> shift) & 255U);
-    return bytes;
 }
 
 void change_bytes(std::string& bytes, std::mt19937& random)
@@ -115,12 +109,7 @@ std::string join_scene(SceneFormat format, const SceneParts& parts)
 {
     if (format != SceneFormat::kGlb)
         return parts.json;
-    std::string json = parts.json;
-    json.resize((json.size() + 3) / 4 * 4, ' ');
-    std::string binary = parts.binary;
-    binary.resize((binary.size() + 3) / 4 * 4, '\0');
-    return "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON"
-        + json + word(binary.size()) + std::string("BIN\0", 4) + binary;
+    return glb_container(parts.json, parts.binary);
 }
 
 void mutate_scene(SceneParts& parts, std::mt19937& random)
