@@ -1,4 +1,5 @@
-// How long a glTF file of many triangles takes until its tables are ready for the GPU.
+// How long a glTF file of many triangles takes until its tables are ready for the GPU, and how much
+// of the GPU's memory each triangle takes there, table by table.
 //
 // farlight-load-bench [FILE]: without a file, a grid of 1,000,000 triangles with normals and uvs,
 // written beside the other temporary files. Prints the best of a few rounds, as a machine that
@@ -12,6 +13,8 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <map>
+#include <optional>
 
 namespace farlight {
 namespace {
@@ -59,13 +62,27 @@ void run(const std::filesystem::path& file)
     double load = 1e9;
     double pack = 1e9;
     std::size_t triangles = 0;
+    std::map<std::string, std::size_t> bytes;
     for (int round = 0; round < kRounds; ++round) {
         Scene scene;
         load = std::min(load, seconds_of([&] { scene = load_scene(file); }));
-        pack = std::min(pack, seconds_of([&] { triangles = pack_scene(scene).content.triangles; }));
+        std::optional<PackedScene> packed;
+        pack = std::min(pack, seconds_of([&] { packed.emplace(pack_scene(scene)); }));
+        triangles = packed->content.triangles;
+        for (const auto& [name, texels] : packed->tables())
+            bytes[name] = texels->size() * sizeof(Texels::value_type);
     }
     std::printf("%zu triangles: file to scene %.3f s, scene to tables with tree %.3f s\n",
         triangles, load, pack);
+    std::size_t all = 0;
+    for (const auto& [name, count] : bytes) {
+        all += count;
+        if (count > triangles)  // a byte a triangle
+            std::printf("%-10s %6.1f bytes a triangle\n", name.c_str(),
+                static_cast<double>(count) / static_cast<double>(triangles));
+    }
+    std::printf("%-10s %6.1f bytes a triangle\n", "all",
+        static_cast<double>(all) / static_cast<double>(triangles));
 }
 
 }  // namespace
