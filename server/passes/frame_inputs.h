@@ -21,11 +21,12 @@ struct FrameInputs {
     float lens_radius = 0;  ///< [m], 0: pinhole.
     float focus_distance = 1;  ///< View depth [m], > 0.
     glm::vec2 pixel_jitter{0};  ///< Of the primary rays from the pixels' middles [px].
+    bool holes = false;  ///< Some surface is not there everywhere: rays go on through it.
 
     /// The same, for another variant of the scene's programs.
     FrameInputs with_scene(const SceneInputs& other) const
     {
-        return {other, fog, lens_radius, focus_distance, pixel_jitter};
+        return {other, fog, lens_radius, focus_distance, pixel_jitter, holes};
     }
 
     bool has_specular() const { return scene.calls_for("FX_SPECULAR_SIGNAL"); }

@@ -25,11 +25,16 @@ struct Signals {
 /// four times what a million triangles take. On hardware it keeps a dispatch clear of the driver's
 /// watchdog.
 constexpr int kSegmentsPerDispatch = 256;
+/// Where surfaces have holes every one on a ray's way takes some rounds: this leaves 2048.
+constexpr int kSegmentsThroughHoles = 32;
 
-inline int samples_per_dispatch(const RenderSettings& settings, bool fog)
+/// Follows from the scene, not from the program: sums in another order are other bits.
+inline int samples_per_dispatch(const RenderSettings& settings, const FrameInputs& inputs)
 {
-    const int paths_per_sample = fog ? 2 : 1;
-    return std::max(kSegmentsPerDispatch / (settings.max_depth * paths_per_sample), 1);
+    const glm::vec3& sigma_t = inputs.fog.sigma_t;
+    const int paths_per_sample = std::max({sigma_t.x, sigma_t.y, sigma_t.z}) > 0 ? 2 : 1;
+    const int segments = inputs.holes ? kSegmentsThroughHoles : kSegmentsPerDispatch;
+    return std::max(segments / (settings.max_depth * paths_per_sample), 1);
 }
 
 /// `samples` more samples a pixel, averaged with the `samples_before` that `before` holds.
@@ -89,7 +94,7 @@ inline Signals add_path_trace(FrameGraph& graph, const FrameInputs& inputs, cons
     const RenderSettings& settings)
 {
     const int wanted = settings.samples_per_pixel;
-    const int at_once = samples_per_dispatch(settings, inputs.has_fog());
+    const int at_once = samples_per_dispatch(settings, inputs);
     Signals signals = add_path_trace_part(
         graph, inputs, gbuffer, settings, nullptr, {0, std::min(at_once, wanted)});
     for (int traced = at_once; traced < wanted; traced += at_once)

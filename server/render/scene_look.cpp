@@ -35,6 +35,13 @@ bool any_scatterer(const Scene& scene)
             [&](const Object& object) { return reflects(scene.materials[object.material]); });
 }
 
+bool any_holes(const Scene& scene)
+{
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        return scene.materials[object.material].alpha_mode != AlphaMode::kOpaque;
+    });
+}
+
 // Fog ends somewhere, or no light from outside would ever arrive; four radii of the scene hold
 // whatever a camera that frames it sees of it, and the camera.
 constexpr double kFogRadii = 4;
@@ -54,6 +61,7 @@ SceneLook look_of(const Scene& scene)
     look.fog.g = scene.medium.g;
     look.fog.center = bounds.empty() ? glm::vec3(0) : glm::vec3(bounds.center());
     look.fog.radius = static_cast<float>(kFogRadii * radius);
+    look.holes = any_holes(scene);
     look.scatters = any_light(scene) && any_scatterer(scene);
     return look;
 }

@@ -12,6 +12,7 @@ struct SceneLook {
     Fog fog;
     Lens lens;
     float radius = 1;  ///< Of the scene [m].
+    bool holes = false;  ///< Something drawn is not there everywhere.
     bool scatters = true;  ///< Something is lit and can show it; else only emission is seen.
 };
 

@@ -99,6 +99,7 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
     const Lens& lens = scene_.look.lens;
     const double target = glm::length(request.camera.target - request.camera.position);
     const double focus = lens.focus_distance > 0 ? lens.focus_distance : target;
+    inputs.holes = scene_.look.holes;
     inputs.lens_radius = static_cast<float>(lens.radius);
     inputs.focus_distance = focus > 0 ? static_cast<float>(focus) : 1.0F;
     if (request.settings.antialiasing && mean_frames_ > 0)

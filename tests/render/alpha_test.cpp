@@ -114,6 +114,43 @@ TEST_F(BlendTest, TwoVeilsStopIndependently)
     EXPECT_NEAR(mean.mean, 0.36, 5 * mean.standard_error);
 }
 
+/// 240 thin veils over a floor: many samples in one frame are those of many frames, none cut
+/// short, though llvmpipe ends all loops of an invocation after 65535 rounds together.
+TEST_F(BlendTest, ManyVeilsEndNoLoop)
+{
+    Scene scene = black_veil(0.005F);
+    scene.materials.push_back({"floor", glm::vec3(0.5F)});
+    scene.objects.push_back({"floor", 1, Quad{{-20, 0, 20}, {40, 0, 0}, {0, 0, -40}}});
+    for (int i = 0; i < 240; ++i)
+        scene.objects.push_back(
+            {"veil", 0, Quad{{-20, 2 + 0.0025 * i, 20}, {40, 0, 0}, {0, 0, -40}}});
+    scene.camera = {{0, 1, 1}, {0, 0, 0}, {0, 1, 0}, 30};
+    PunctualLight sun;
+    sun.kind = PunctualLight::Kind::kDirectional;
+    sun.direction = glm::normalize(glm::dvec3(0.3, -1, 0.1));
+    scene.lights.push_back(sun);
+    const TestScene on_device(scene);
+    const auto mean_of_frames = [&](int frames, int samples) {
+        RenderRequest request = linear_request(on_device.scene, {16, 16}, {});
+        request.settings.denoiser = Denoiser::kAccumulate;
+        request.settings.antialiasing = false;
+        request.settings.samples_per_pixel = samples;
+        View view(on_device.shared);
+        RenderedFrame frame;
+        for (int i = 0; i < frames; ++i)
+            frame = view.render(request);
+        return frame.image;
+    };
+    const Image at_once = mean_of_frames(1, 128);
+    const Image in_turn = mean_of_frames(64, 2);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            const float expected = pixel(in_turn, x, y).x;
+            // 1e-4: sums of 128 numbers in another order.
+            ASSERT_NEAR(pixel(at_once, x, y).x, expected, 1e-4F * expected) << x << "," << y;
+        }
+}
+
 /// A white floor under a veil: the sun reaches it through the veil, and the camera sees it below.
 TEST_F(BlendTest, ShadowsAreAsDeepAsTheVeilIsDense)
 {

@@ -212,6 +212,16 @@ TEST_F(GlTest, SpecialisedEqualsGeneralForInstancesAtRest)
     expect_as_general(subject, {}, {list({})}, "egg");
 }
 
+/// As many samples as fog would need another dispatch for: a program that could draw fog must not
+/// add them up in another order.
+TEST_F(GlTest, SpecialisedEqualsGeneralForManySamplesAtOnce)
+{
+    RenderSettings many = averaging();
+    many.samples_per_pixel = 40;
+    const Subject subject(shipped_scene("cornell_box.json"));
+    expect_as_general(subject, many, {list({})}, "cornell_box");
+}
+
 /// Minutes: run by ctest -L long.
 class SpecialisedLongTest : public SpecialisedTest { };
 
