@@ -42,6 +42,10 @@ constexpr std::string_view kModeNames[] = {"interactive", "lockstep"};
 enum class Format : std::uint8_t { kJpeg420, kJpeg444, kPng, kRaw };
 constexpr std::string_view kFormatNames[] = {"jpeg420", "jpeg444", "png", "raw"};
 
+/// How a scene that follows time goes on after its duration.
+enum class Afterwards : std::uint8_t { kRests, kRepeats, kGoesOn };
+constexpr std::string_view kAfterwardsNames[] = {"rests", "repeats", "goes_on"};
+
 enum class ErrorCode : std::uint8_t {
     kNotJson,
     kUnknownType,
@@ -72,6 +76,10 @@ constexpr const auto& names_of(Mode)
 constexpr const auto& names_of(Format)
 {
     return kFormatNames;
+}
+constexpr const auto& names_of(Afterwards)
+{
+    return kAfterwardsNames;
 }
 constexpr const auto& names_of(ErrorCode)
 {

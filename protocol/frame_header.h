@@ -59,6 +59,7 @@ struct FrameHeader {
     std::uint32_t denoise_us = 0;
     std::uint32_t encode_us = 0;
     std::uint32_t nonfinite_count = 0;
+    float scene_time = 0;  ///< [s] that the picture shows; 0 where nothing follows time.
     std::uint64_t framebuffer_hash = 0;  ///< XXH64, seed 0, of the unencoded pixel bytes.
 
     std::vector<PassEntry> passes;  ///< In execution order.
@@ -86,6 +87,7 @@ struct FrameHeader {
         visit(56, "denoise_us", h.denoise_us);
         visit(60, "encode_us", h.encode_us);
         visit(64, "nonfinite_count", h.nonfinite_count);
+        visit(68, "scene_time", h.scene_time);
         visit(72, "framebuffer_hash", h.framebuffer_hash);
     }
 };

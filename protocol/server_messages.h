@@ -38,6 +38,8 @@ struct SceneSummary {
     std::optional<BoundingBox> bounds;  ///< Absent for an empty scene.
     std::uint64_t triangles = 0;
     std::uint64_t lights = 0;
+    std::optional<double> duration;  ///< [s] Absent: nothing follows time.
+    Afterwards afterwards = Afterwards::kRests;
 
     bool operator==(const SceneSummary&) const = default;
 
@@ -49,6 +51,8 @@ struct SceneSummary {
         visit("bounds", m.bounds, Rule{});
         visit("triangles", m.triangles, Rule{});
         visit("lights", m.lights, Rule{});
+        visit("duration", m.duration, Rule{});
+        visit("afterwards", m.afterwards, kOptional);
     }
 };
 
@@ -206,6 +210,7 @@ struct Inspection {
 
     std::vector<CalledEffect> effects;
     std::vector<std::string> program;
+    bool general = false;  ///< `program` is the one that holds everything.
     std::vector<std::string> passes;
     std::vector<MemoryUse> scene_memory;
     std::vector<MemoryUse> view_memory;
@@ -216,6 +221,7 @@ struct Inspection {
     {
         visit("effects", m.effects, Rule{});
         visit("program", m.program, Rule{});
+        visit("general", m.general, kOptional);
         visit("passes", m.passes, Rule{});
         visit("scene_memory", m.scene_memory, Rule{});
         visit("view_memory", m.view_memory, Rule{});

@@ -1,7 +1,9 @@
-// The settings the server offers, as rows of controls. The page knows no setting but the three it puts on top.
+// The settings the server offers, as rows of controls. The page knows no
+// setting but the three it puts on top and those of time, which have controls of their own.
 import { element } from "./dom.js";
 import { settingRow } from "./controls.js";
 
+const ELSEWHERE = ["play", "time", "time_step"];  // the time line's; the step is for recordings
 const ON_TOP = ["denoiser", "samples_per_pixel", "view"];
 
 export class Panel {
@@ -22,6 +24,10 @@ export class Panel {
     /** Values that differ from the server's defaults: what a new session starts from. */
     changed() {
         return Object.fromEntries([...this.#values].filter(([key, value]) => value !== this.#described.get(key).default));
+    }
+
+    #changedRows() {
+        return Object.keys(this.changed()).filter((key) => this.#rows.has(key));
     }
 
     values() {
@@ -47,9 +53,9 @@ export class Panel {
                 continue;
             this.#values.set(key, value);
             if (this.#unanswered === 0 && !this.#wanted.has(key))
-                this.#rows.get(key).show(value);
+                this.#rows.get(key)?.show(value);
         }
-        const changed = Object.keys(this.changed()).length;
+        const changed = this.#changedRows().length;
         this.#count.textContent = changed ? `${changed} changed` : "";
         this.#resetAll.disabled = changed === 0;
     }
@@ -66,11 +72,12 @@ export class Panel {
     }
 
     #build(settings) {
-        this.#rows = new Map(settings.map((setting) =>
+        const shown = settings.filter(({ key }) => !ELSEWHERE.includes(key));
+        this.#rows = new Map(shown.map((setting) =>
             [setting.key, settingRow(setting, (value) => this.#change(setting.key, value))]));
         const rank = (setting) => ON_TOP.indexOf(setting.key);
-        const top = settings.filter((setting) => rank(setting) >= 0).sort((a, b) => rank(a) - rank(b));
-        const rest = settings.filter((setting) => rank(setting) < 0);
+        const top = shown.filter((setting) => rank(setting) >= 0).sort((a, b) => rank(a) - rank(b));
+        const rest = shown.filter((setting) => rank(setting) < 0);
         this.#top.replaceChildren(...top.map(({ key }) => this.#rows.get(key).node));
         this.#rest.replaceChildren(...rest.map(({ key }) => this.#rows.get(key).node));
         this.#rest.append(element("p", { className: "help", hidden: rest.length > 0 }, "This server offers no others."));
@@ -95,7 +102,7 @@ export class Panel {
     }
 
     #resetEverything() {
-        for (const key of Object.keys(this.changed()))
+        for (const key of this.#changedRows())
             this.#change(key, this.#described.get(key).default);
     }
 }

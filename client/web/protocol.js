@@ -24,7 +24,8 @@ export const HEADER_FIELDS = [
     [32, "u16", "width"], [34, "u16", "height"], [36, "u16", "full_width"],
     [38, "u16", "full_height"], [40, "u32", "accumulated_samples"], [44, "f32", "predicted_error"],
     [48, "u32", "wait_us"], [52, "u32", "trace_us"], [56, "u32", "denoise_us"],
-    [60, "u32", "encode_us"], [64, "u32", "nonfinite_count"], [72, "u64", "framebuffer_hash"],
+    [60, "u32", "encode_us"], [64, "u32", "nonfinite_count"], [68, "f32", "scene_time"],
+    [72, "u64", "framebuffer_hash"],
 ];
 const SMALLEST_HEADER = 80;
 const MOST_PASSES = 256;

@@ -40,6 +40,11 @@ export class Steering {
         this.#pathChanged();
     }
 
+    /** Another scene before the same camera. */
+    changeScene(scene) {
+        this.#reach = reachOf(scene, this.#home);
+    }
+
     reset() {
         this.pause();
         this.pose = this.#home;

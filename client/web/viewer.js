@@ -2,14 +2,17 @@
 import { attachInput } from "./input.js";
 import { Connection } from "./connection.js";
 import { element } from "./dom.js";
+import { Inspector } from "./inspector.js";
 import { Curtain, notify } from "./notices.js";
 import { FIGURES, Overlay, stateOf } from "./overlay.js";
 import { Panel } from "./panel.js";
 import { PathBar } from "./path_bar.js";
 import { PictureOptions } from "./picture_options.js";
 import { Presenter } from "./presenter.js";
+import { SceneEditor } from "./scene_editor.js";
 import { Statistics } from "./statistics.js";
 import { Steering } from "./steering.js";
+import { TimeBar } from "./time_bar.js";
 
 const CLIENT = "farlight web viewer 1";
 const MICROSECONDS = 1000; // in a millisecond
@@ -33,6 +36,15 @@ const pathBar = new PathBar({
     loop: at("path-loop"), word: at("path-word"),
 }, steering);
 
+const timeBar = new TimeBar({ controls: at("time-controls"), play: at("time-play"), time: at("time"), word: at("time-word") },
+    (key, value) => connection.send("set", { key, value }));
+
+const inspector = new Inspector({ box: at("inspector"), word: at("inspector-word"), body: at("inspector-body") },
+    () => connection.send("inspect"));
+
+const editor = new SceneEditor({ patch: at("patch"), apply: at("patch-apply"), reset: at("patch-reset"), word: at("patch-word") },
+    (fields) => connection.send("edit", fields));
+
 const panel = new Panel({ top: at("settings-top"), rest: at("settings-rest"), count: at("settings-count"), resetAll: at("settings-reset") },
     (key, value) => connection.send("set", { key, value }));
 
@@ -53,17 +65,22 @@ const curtain = new Curtain({
 }, { retry: () => connection.retryNow(), reload: () => location.reload() });
 
 const connection = new Connection(socketUrl(), () => ({
-    client: CLIENT, mode: "interactive", format: options.format, settings: panel.changed(),
+    client: CLIENT, mode: "interactive", format: options.format, settings: { ...panel.changed(), ...timeBar.held },
 }), {
     status: showStatus,
     welcome: enter,
     state: (message) => {
         panel.update(message.settings);
+        timeBar.update(message.settings);
+        inspector.update(message.settings);
         options.state(message);
     },
+    scene_changed: changeScene,
+    inspection: (message) => inspector.show(message),
     error: (message) => {
         errors.push(message);
-        panel.complain(message.field, message.message);
+        if (!panel.complain(message.field, message.message) && editor.complain(message))
+            return;
         notify(at("notices"), message.field ? `${message.field}: ${message.message}` : message.message);
     },
     frame: (buffer, arrivedAt) => presenter.accept(buffer, arrivedAt),
@@ -97,12 +114,14 @@ function enter(welcome) {
     const same = welcomed?.scene.file === welcome.scene.file && welcomed.scene.name === welcome.scene.name;
     welcomed = welcome;
     const software = welcome.device === "software";
-    document.title = `${welcome.scene.name} – Farlight`;
-    at("scene").textContent = welcome.scene.name;
+    nameScene(welcome.scene);
     at("device").textContent = `${welcome.gl_renderer} (${software ? "software" : welcome.device})`;
     at("device").title = software ? "Drawn by the processor: no graphics card takes part" : welcome.device;
-    at("stage").setAttribute("aria-label", `Picture of ${welcome.scene.name}. Arrow keys turn the camera, H lists all keys.`);
     panel.describe(welcome.settings);
+    timeBar.describe(welcome.scene);
+    timeBar.update(panel.values());
+    inspector.update(panel.values());
+    editor.welcome(welcome);
     options.state(welcome);
     options.welcome(welcome);
     pathBar.describe(welcome.camera_paths);
@@ -110,13 +129,30 @@ function enter(welcome) {
     steering.enter(welcome.scene, welcome.camera, same && steering.moved);
 }
 
-function describeScene({ scene, effects, server, session, device }) {
+/** Somebody has edited the scene; the camera stays where it is. */
+function changeScene({ edit, scene }) {
+    welcomed = { ...welcomed, scene };
+    nameScene(scene);
+    timeBar.describe(scene);
+    describeScene(welcomed);
+    steering.changeScene(scene);
+    inspector.changed();
+    if (!editor.changed(edit))
+        notify(at("notices"), "Somebody else has edited the scene.", "note");
+}
+
+function nameScene({ name }) {
+    document.title = `${name} – Farlight`;
+    at("scene").textContent = name;
+    at("stage").setAttribute("aria-label", `Picture of ${name}. Arrow keys turn the camera, H lists all keys.`);
+}
+
+function describeScene({ scene, server, session, device }) {
     const rows = [["Scene file", scene.file], ["Triangles", scene.triangles.toLocaleString("en")], ["Lights", scene.lights],
         ["Device", device], ["Server", server], ["Session", session]];
     at("about").replaceChildren(
         element("dl", {}, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, String(value))])),
-        ...[["Effects compiled for this scene", effects], ["What the loader noted", scene.notes]].filter(([, list]) => list.length)
-            .flatMap(([name, list]) => [element("h3", {}, name), element("ul", {}, ...list.map((text) => element("li", {}, text)))]));
+        ...(scene.notes.length ? [element("h3", {}, "What the loader noted"), element("ul", {}, ...scene.notes.map((note) => element("li", {}, note)))] : []));
 }
 
 function showFrame(frame) {
@@ -128,6 +164,7 @@ function showFrame(frame) {
     });
     statistics.frameShown(header, bytes, performance.now());
     overlay.show(frame);
+    timeBar.frame(header);
     at("app").dataset.state = stateOf(header);
 }
 
@@ -190,6 +227,7 @@ Object.defineProperty(window, "farlight", {
         get passes() { return lastFrame && structuredClone(lastFrame.passes); },
         get latency() { return statistics.latency(); },
         get settings() { return panel.values(); },
+        get inspection() { return structuredClone(inspector.last); },
         get camera() { return steering.pose && structuredClone(wirePose(steering.pose)); },
         get cameraSequence() { return sequence; },
         get errors() { return structuredClone(errors); },

@@ -98,6 +98,8 @@ RendererDescription describe(const Context& context, const LiveScene& live)
     d.bounds = live.bounds();
     d.triangles = gpu.triangle_count();
     d.lights = gpu.light_count();
+    if (gpu.moves())
+        d.course = course_of(scene.animation);
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     d.max_dimension = std::min(limit, 8192);  // above it one frame's buffers alone pass 16 GB

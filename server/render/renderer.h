@@ -48,7 +48,8 @@ struct RenderedFrame {
         0;  ///< Samples a pixel since the camera or a setting last changed.
     std::uint32_t nonfinite_count =
         0;  ///< Non-finite values met before anything cleaned them; must be 0.
-    bool moves = false;  ///< The scene follows time: other times may look different.
+    bool moves = false;  ///< The scene follows time: later frames may look different.
+    double time = 0;  ///< Shown, of a scene that moves [s].
     bool history_reset = false;  ///< This frame started without history.
     bool converged = false;  ///< accumulated_samples reached settings.still_samples.
     EffectMask effects;  ///< Held by the programs that drew it.
@@ -86,6 +87,7 @@ struct RendererDescription {
     Bounds bounds;
     std::size_t triangles = 0;
     std::size_t lights = 0;
+    std::optional<Course> course;  ///< Of what follows time; absent: nothing does.
     Extent default_extent;
     int max_dimension = 0;  ///< Largest width or height the device can draw.
 };

@@ -54,7 +54,7 @@ void View::follow(const RenderRequest& request)
     const RenderSettings& s = request.settings;
     const SampleKey key{request.camera, request.extent, s.samples_per_pixel, s.max_depth,
         s.roulette_depth, s.light_sampling, s.antialiasing, s.seed, scene_.version,
-        moves() ? request.time : 0};
+        moment_shown(request.time)};
     if (request.reset_history || request.extent != key_.extent)
         has_history_ = false;
     if (!has_history_)
@@ -110,7 +110,7 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
 void View::begin(const RenderRequest& request)
 {
     follow(request);
-    pose(request.time);
+    pose(moment_shown(request.time));
     upload_constants(request);
     if (!has_history_)
         graph_.forget_histories();
@@ -136,7 +136,8 @@ void View::begin(const RenderRequest& request)
     readback_.begin(graph_.texture(result));
 
     frame_ = RenderedFrame{};
-    frame_.moves = moves();
+    frame_.time = moment_shown(request.time);
+    frame_.moves = moves() && frame_.time >= request.time;
     frame_.history_reset = !has_history_;
     frame_.effects = variant.mask;
     const int averaged = mean_frames_ > 0 ? mean_frames_ : still_frames_;

@@ -68,6 +68,8 @@ private:
     };
 
     bool moves() const { return scene_.gpu != nullptr && scene_.gpu->moves(); }
+    /// What of `time` can be seen [s].
+    double moment_shown(double time) const { return moves() ? scene_.gpu->moment_shown(time) : 0; }
     void follow(const RenderRequest& request);
     void pose(double time);
     void upload_constants(const RenderRequest& request);

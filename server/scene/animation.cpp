@@ -135,6 +135,26 @@ void evaluate(const Track& track, double time, std::span<double> value)
     }
 }
 
+Course course_of(const Animation& animation)
+{
+    Course course;
+    course.all_repeat = !animation.empty();
+    for (const Track& track : animation.tracks) {
+        const double seconds = track.period > 0 ? track.period : track.times.back();
+        course.any_repeats = course.any_repeats || track.period > 0;
+        course.duration = std::max(course.duration, seconds);
+    }
+    for (const Track& track : animation.tracks)
+        course.all_repeat = course.all_repeat && track.period == course.duration;
+    return course;
+}
+
+double moment_shown(const Animation& animation, double time)
+{
+    const Course course = course_of(animation);
+    return course.any_repeats ? time : std::min(time, course.duration);
+}
+
 std::vector<glm::dmat4> pose_nodes(const Animation& animation, double time)
 {
     std::vector<Node> nodes = animation.nodes;

@@ -63,6 +63,17 @@ std::size_t width_of(const Track& track);
 /// The track's value at `time` [s], into `width_of(track)` numbers. Rotations come out unit.
 void evaluate(const Track& track, double time, std::span<double> value);
 
+/// What becomes of an animation in the long run.
+struct Course {
+    double duration = 0;  ///< [s] until each track has come to its end or its first repetition.
+    bool all_repeat = false;  ///< All together, after `duration`.
+    bool any_repeats = false;
+};
+Course course_of(const Animation& animation);
+
+/// The first moment that looks like `time` and all after it, or `time` itself.
+double moment_shown(const Animation& animation, double time);
+
 /// world_from_node of every node at `time`.
 std::vector<glm::dmat4> pose_nodes(const Animation& animation, double time);
 

@@ -31,6 +31,10 @@ public:
     void pose(double time, double prev_time);
     /// Whether anything depends on time.
     bool moves() const { return !scene_.animation.empty(); }
+    double moment_shown(double time) const
+    {
+        return farlight::moment_shown(scene_.animation, time);
+    }
     /// Factor on the scene's background now.
     float background_factor() const { return background_factor_; }
 

@@ -52,10 +52,16 @@ bool DrawPlan::move_camera(const CameraPose& pose, std::uint32_t sequence, bool 
 
 void DrawPlan::set_settings(const RenderSettings& settings, Time now)
 {
-    const bool jumps = settings.time != wishes_.settings.time;
-    time_ = jumps ? static_cast<double>(settings.time) : time_at(now);
+    time_ = time_at(now);
     clock_start_ = now;
     wishes_.settings = settings;
+    change(now);
+}
+
+void DrawPlan::go_to_time(Time now)
+{
+    time_ = static_cast<double>(wishes_.settings.time);
+    clock_start_ = now;
     change(now);
 }
 

@@ -54,6 +54,8 @@ public:
     /// False: lockstep, and kLockstepQueue cameras wait already; the message is dropped.
     bool move_camera(const CameraPose& pose, std::uint32_t sequence, bool cut, Time now);
     void set_settings(const RenderSettings& settings, Time now);
+    /// To the moment that the settings name, wherever the clock has come to.
+    void go_to_time(Time now);
     void set_extent(Extent extent, Time now);
     void set_format(protocol::Format format, Time now);
     /// The same wishes of another scene.

@@ -37,6 +37,7 @@ EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
     header.session_epoch = draw.session_epoch;
     header.accumulated_samples = frame.accumulated_samples;
     header.nonfinite_count = frame.nonfinite_count;
+    header.scene_time = static_cast<float>(frame.time);
     if (draw.asked)
         header.wait_us =
             microseconds(std::chrono::duration<double, std::milli>(begun - *draw.asked).count());
@@ -53,6 +54,7 @@ protocol::Inspection inspection_of(const RenderedFrame& frame)
     protocol::Inspection inspection;
     for (const std::string_view name : frame.effects.names())
         inspection.program.emplace_back(name);
+    inspection.general = frame.effects == EffectMask::general();
     for (const PassTime& time : frame.pass_times)
         inspection.passes.push_back(time.pass);
     for (const auto& [name, bytes] : frame.memory)

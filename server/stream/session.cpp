@@ -91,6 +91,8 @@ void Session::on(const protocol::Set& set, Time now)
         return;
     if (settings != plan_->wishes().settings)
         plan_->set_settings(settings, now);
+    if (set.key == "time")
+        plan_->go_to_time(now);
     say_state();
 }
 

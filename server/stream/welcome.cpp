@@ -24,6 +24,14 @@ protocol::SceneSummary summary_of(const RendererDescription& description)
     scene.notes = description.scene_notes;
     scene.triangles = description.triangles;
     scene.lights = description.lights;
+    if (description.course) {
+        using protocol::Afterwards;
+        const Course& course = *description.course;
+        scene.duration = course.duration;
+        scene.afterwards = course.all_repeat ? Afterwards::kRepeats
+            : course.any_repeats             ? Afterwards::kGoesOn
+                                             : Afterwards::kRests;
+    }
     if (!description.bounds.empty())
         scene.bounds = {to_array(description.bounds.lower), to_array(description.bounds.upper)};
     return scene;

@@ -31,9 +31,15 @@ const SETTINGS = () => [
     choice("tonemap", "aces", ["aces", "linear"], "curve from scene-linear to display"),
     choice("view", "final", ["final", "sheet", "raw_radiance", "albedo", "depth", "shading_normal", "variance", "history_length"],
         "the finished picture or a buffer behind it"),
+    { key: "play", type: "boolean", value: true, default: true, help: "time passes in a scene that moves" },
+    real("time", 0, 0, 3600, "[s] of a scene that moves: setting it goes there"),
+    { key: "effects", type: "text", value: "auto", default: "auto", help: "effects compiled in" },
     integer("still_samples", 24, 1, 65536, "samples after which a resting picture is final"),
 ];
 const CAMERA = { position: [0, 1, 4], target: [0, 1, 0], up: [0, 1, 0], vertical_fov_degrees: 45 };
+
+const EFFECTS = [{ name: "triangles", reason: "36 triangles, first 'floor'" }, { name: "lights", reason: "1 light, first 'lamp'" }];
+const EVERY_EFFECT = ["triangles", "spheres", "lights", "fog", "lens", "alpha"];
 
 function hueColour(hue, light) {
     return [0, 1 / 3, 2 / 3].map((shift) => Math.round(255 * light * (0.5 + 0.45 * Math.cos(2 * Math.PI * (hue + shift)))));
@@ -67,6 +73,8 @@ class Session {
     camera = CAMERA;
     sequence = 0; frame = 0; acked = 0; samples = 0; epoch = 1;
     size = [320, 180];
+    time = 0;  // [s] of the scene, 20 ms a frame while it plays
+    name = "Gradient";
     format = "jpeg420";
 
     constructor(socket, server) {
@@ -82,6 +90,10 @@ class Session {
 
     receive(message) {
         this.server.received.push(message);
+        if (message.type === "inspect")
+            return this.inspect();
+        if (message.type === "edit")
+            return this.edit(message);
         const change = { camera: this.move, set: this.set, resize: this.resize, format: this.reformat }[message.type];
         if (message.type === "hello")
             this.welcome(message);
@@ -103,13 +115,39 @@ class Session {
         this.say({
             type: "welcome", protocol: this.server.behaviour.protocol, server: "fake 1", session: "s1", mode: "interactive",
             format: this.format, size: this.size, max_in_flight: 2, device: "software", gl_renderer: "made-up pictures",
-            scene: { name: "Gradient", file: "gradient.json", notes: ["made up for tests"], triangles: 1234567, lights: 1, bounds: { lower: [-1, 0, -1], upper: [1, 2, 1] } },
+            scene: this.scene(), edits: this.server.behaviour.edits,
             camera: CAMERA,
             camera_paths: { "fly by": [{ frame: 0, ...CAMERA }, { frame: 30, ...CAMERA, position: [4, 1, 0] }] },
             effects: ["quads: 17 objects, first 'floor'"], settings: this.settings,
             limits: { max_dimension: 4096, max_in_flight: 8, max_message_bytes: 16384 },
         });
         this.ready = true;
+    }
+
+    scene() {
+        const { moves } = this.server.behaviour;
+        return {
+            name: this.name, file: "gradient.json", notes: ["made up for tests"], triangles: 1234567, lights: 1,
+            bounds: { lower: [-1, 0, -1], upper: [1, 2, 1] }, ...moves,
+        };
+    }
+
+    inspect() {
+        const general = this.server.behaviour.general || this.value("effects") === "general";
+        this.say({
+            type: "inspection", effects: EFFECTS, general, program: general ? EVERY_EFFECT : EFFECTS.map(({ name }) => name),
+            passes: ["gbuffer", "path_trace"], scene_memory: [{ name: "bvh_nodes", bytes: 1344 }, { name: "vertices", bytes: 5_000_000 }],
+            view_memory: Array.from({ length: 13 }, (_, i) => ({ name: `svgf.texture_${Math.max(1, i)}`, bytes: 1e6 * Math.max(1, i) })),
+        });
+    }
+
+    /** Knows one key of a scene's document: its name. */
+    edit({ id, patch, reset }) {
+        const other = Object.keys(patch).find((key) => key !== "name");
+        if (other)
+            return this.say({ type: "error", code: "edit_refused", message: `gradient.json: /${other}: found an unknown key`, field: `/${other}`, fatal: false });
+        this.name = patch.name ?? (reset ? "Gradient" : this.name);
+        return this.say({ type: "scene_changed", edit: id, scene: this.scene(), effects: [] });
     }
 
     move(message) {
@@ -134,6 +172,8 @@ class Session {
             return false;
         }
         setting.value = value;
+        if (key === "time")
+            this.time = value;
         return true;
     }
 
@@ -152,7 +192,9 @@ class Session {
         if (!this.ready || behaviour.silent || this.frame - this.acked >= 2 || this.finished === this.sequence && final)
             return;
         this.samples += this.value("samples_per_pixel");
-        const last = this.samples >= this.value("still_samples");
+        const plays = behaviour.moves && this.value("play");
+        this.time += plays ? 0.02 : 0;
+        const last = !plays && this.samples >= this.value("still_samples");
         const still = this.samples > 4;
         const jpeg = behaviour.jpeg && this.format.startsWith("jpeg") && !last;
         const payload = behaviour.garbage ? Buffer.from("no picture") : jpeg ? behaviour.jpeg : png(...this.size, this.colour());
@@ -164,6 +206,7 @@ class Session {
             format: FORMATS.indexOf(jpeg ? this.format : "png"), flags, frame_id: ++this.frame, camera_sequence: this.sequence,
             session_epoch: this.epoch, width, height, full_width: width, full_height: height, accumulated_samples: this.samples,
             wait_us: 900, trace_us: 36000, denoise_us: 14200, encode_us: 2100, nonfinite_count: behaviour.nonfinite,
+            scene_time: this.time,
         }, ms.map(([name, time]) => ({ name, ms: time })), payload));
     }
 }
@@ -171,7 +214,7 @@ class Session {
 export class FakeServer {
     received = [];
     sessions = new Set();
-    behaviour = { protocol: "farlight.v1", subprotocols: ["farlight.v1"], frameMs: 20, jpeg: null, nonfinite: 0, silent: false, garbage: false };
+    behaviour = { protocol: "farlight.v1", subprotocols: ["farlight.v1"], frameMs: 20, jpeg: null, nonfinite: 0, silent: false, garbage: false, moves: null, general: false, edits: true };
 
     constructor(behaviour = {}) {
         Object.assign(this.behaviour, behaviour);

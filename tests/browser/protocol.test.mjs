@@ -78,7 +78,7 @@ test("the example frame reads as PROTOCOL.md says", () => {
         flags: { still: false, lossless: true, history_reset: true, converged: false },
         pass_count: 2, passes_size: 32, frame_id: 7, camera_sequence: 41, session_epoch: 1, payload_size: 24,
         width: 2, height: 1, full_width: 2, full_height: 1, accumulated_samples: 1,
-        wait_us: 850, trace_us: 13750, denoise_us: 9000, encode_us: 40, nonfinite_count: 0,
+        wait_us: 850, trace_us: 13750, denoise_us: 9000, encode_us: 40, nonfinite_count: 0, scene_time: 0,
         framebuffer_hash: "5bcc63c641b2222d",
     });
     assert.deepEqual(passes, [{ name: "gbuffer", ms: 1.5 }, { name: "path_trace", ms: 12.25 }]);

@@ -119,6 +119,48 @@ test("a slider changes a setting on the server", async () => {
     await page.locator("summary").first().click();
 });
 
+test("an edit adds fog: the page tells it among the effects, a wrong edit shows where, the file comes back", async () => {
+    const answer = (kind) => until(page, (wanted) => document.getElementById("patch-word").dataset.kind === wanted, kind);
+    await page.locator("summary", { hasText: "Edit the scene" }).click();
+    await page.locator("#patch").fill('{"fog": {"scattering": [1, "thick", 1]}}');
+    await page.locator("#patch-apply").click();
+    await answer("bad");
+    assert.equal(await page.locator("#patch-word code").textContent(), "/fog/scattering");
+    await page.locator("#patch").fill('{"fog": {"scattering": [0.0002, 0.0002, 0.0002]}}');
+    await page.locator("#patch-apply").click();
+    await answer("good");
+    await page.locator("#inspector summary").click();
+    await until(page, () => window.farlight.inspection.program.includes("fog"));
+    await page.locator(".effects dt", { hasText: "fog" }).waitFor();
+    await until(page, () => document.querySelector(".program").dataset.kind === "specialised");
+    assert.ok(await page.locator(".memory .fill").count() > 5);
+    await page.locator("#inspector").evaluate((node) => node.scrollIntoView());
+    await screenshot(page, "server_fog");
+    await page.locator("#patch-reset").click();
+    await until(page, () => !window.farlight.inspection.effects.some(({ name }) => name === "fog"));
+    await until(page, () => !window.farlight.inspection.program.includes("fog"));
+    await page.locator("#inspector summary").click();
+    await page.locator("summary", { hasText: "Edit the scene" }).click();
+    assert.deepEqual(page.complaints, []);
+});
+
+test("a scene that moves has a time line, which goes where it is put", async () => {
+    const moving = await ServerProcess.start({ scene: "scenes/moving.json" });
+    const other = await browser.open(moving.url);
+    await until(other, () => window.farlight?.lastHeader?.scene_time > 0.2);
+    await other.locator("#time").fill("2.5");
+    await until(other, () => window.farlight.lastHeader.scene_time === 2.5 && window.farlight.lastHeader.flags.still);
+    assert.equal(await other.locator("#time-play").textContent(), "Play");
+    await screenshot(other, "server_time");
+    await other.locator("#time").fill("0.5");
+    await other.locator("#time-play").click();
+    await until(other, () => window.farlight.lastHeader.scene_time > 0.6 && window.farlight.lastHeader.scene_time < 2.5);
+    assert.deepEqual(other.complaints, []);
+    await other.close();
+    await moving.stop();
+    await page.bringToFront();
+});
+
 test("at rest the picture is refined and ends lossless", async () => {
     await page.locator("summary").first().click();
     const number = page.locator("[data-key=still_samples] input[type=number]");

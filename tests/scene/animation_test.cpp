@@ -48,6 +48,29 @@ TEST(TrackTest, TimeWrapsRoundAtThePeriod)
     EXPECT_THAT(at(track, 4e6), ElementsAre(0, 0, 0));
 }
 
+TEST(CourseTest, EndsWithItsLastKeyUnlessATrackBeginsAnew)
+{
+    Animation animation;
+    EXPECT_EQ(course_of(animation).duration, 0);
+    EXPECT_FALSE(course_of(animation).all_repeat);
+    animation.tracks.push_back(ramp(Track::Interpolation::kLinear));
+    EXPECT_EQ(course_of(animation).duration, 4);
+    EXPECT_EQ(moment_shown(animation, 3), 3);
+    EXPECT_EQ(moment_shown(animation, 9), 4);
+
+    animation.tracks.push_back(ramp(Track::Interpolation::kStep));
+    animation.tracks[1].period = 5;
+    EXPECT_EQ(course_of(animation).duration, 5);
+    EXPECT_TRUE(course_of(animation).any_repeats);
+    EXPECT_FALSE(course_of(animation).all_repeat);
+    EXPECT_EQ(moment_shown(animation, 9), 9);
+
+    animation.tracks[0].period = 5;
+    EXPECT_TRUE(course_of(animation).all_repeat);
+    animation.tracks[0].period = 6;
+    EXPECT_FALSE(course_of(animation).all_repeat) << "not at the same time";
+}
+
 TEST(TrackTest, ACubicIsTheParabolaThatItsTangentsAreOf)
 {
     // x = t^2 with the slopes 2 t at its keys.

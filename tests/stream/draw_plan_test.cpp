@@ -179,7 +179,12 @@ TEST(DrawPlan, TimeGoesOnWhereItStoppedAndJumpsWhereItIsSet)
     EXPECT_DOUBLE_EQ(plan.next()->request.time, 3);
     EXPECT_EQ(plan.next()->request.clock_start, kStart + 10s);
     plan.set_settings(settings_with(true, 0.5F), kStart + 11s);
+    plan.go_to_time(kStart + 11s);
     EXPECT_DOUBLE_EQ(plan.next()->request.time, 0.5);
+    plan.go_to_time(kStart + 13s);  // there once more
+    const Draw again = *plan.next();
+    EXPECT_DOUBLE_EQ(again.request.time, 0.5);
+    EXPECT_EQ(again.request.clock_start, kStart + 13s);
 }
 
 TEST(DrawPlan, LockstepAdvancesByTheStepAndNotByTheClock)

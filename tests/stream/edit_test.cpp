@@ -136,7 +136,9 @@ TEST(InspectTest, TellsWhatTheSceneCallsForAndWhatDrewTheLastFrame)
     client.say(protocol::Camera{.sequence = 1, .pose = {}});
     client.next_frame();
     client.say(protocol::Inspect{});
-    EXPECT_THAT(client.next<protocol::Inspection>().program, testing::ElementsAre("fog"));
+    const auto after = client.next<protocol::Inspection>();
+    EXPECT_THAT(after.program, testing::ElementsAre("fog"));
+    EXPECT_FALSE(after.general);
 }
 
 TEST(EffectsSettingTest, LessThanTheSceneNeedsIsRefusedWithTheReason)
