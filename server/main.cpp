@@ -115,9 +115,9 @@ int serve(const Flags& flags)
             static_cast<std::uint64_t>(height), renderer.description()->max_dimension))
         throw UsageError(*problem);
     if (const auto missing =
-            what_is_missing(flags.stream.settings.effects, renderer.description()->effects))
+            what_is_missing(flags.renderer.settings.effects, renderer.description()->effects))
         throw UsageError(
-            "--set effects=" + to_text(flags.stream.settings.effects) + ": " + *missing);
+            "--set effects=" + to_text(flags.renderer.settings.effects) + ": " + *missing);
     RendererService service(renderer, std::move(document));
     Listener listener(service, flags.stream);
     tell(*renderer.description(), flags);

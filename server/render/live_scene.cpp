@@ -2,6 +2,7 @@
 #include "server/render/live_scene.h"
 
 #include "server/render/frame.h"
+#include "server/render/scene_settings.h"
 #include "server/scene/neutral.h"
 
 #include <algorithm>
@@ -38,6 +39,7 @@ LoadedScene load_onto_device(Scene scene)
     const SceneLook look = look_of(scene);
     const auto kept = std::make_shared<Scene>(std::move(scene));
     auto gpu = std::make_shared<GpuScene>(*kept);
+    check_settings(*kept, gpu->effects());
     glFinish();  // another context will read it
     kept->meshes.clear();
     return {kept, std::move(gpu), bounds, look};

@@ -5,6 +5,7 @@
 #include "server/gl/gl_error.h"
 #include "server/render/frame_limits.h"
 #include "server/render/live_scene.h"
+#include "server/render/scene_settings.h"
 #include "server/render/start_size.h"
 
 #include <algorithm>
@@ -83,13 +84,14 @@ void Renderer::State::run(std::promise<void> ready)
         context = std::make_unique<Context>(options.device);
         LiveScene live(*context, options, [this] { wake(); });
         live.show(load_onto_device(std::move(scene)));
-        live.prepare_programs(options.settings);
         RendererDescription d = describe(*context, live);
+        d.settings = settings_for(live.scene(), options.settings, options.set);
+        live.prepare_programs(d.settings);
         view_memory = memory_for_views(options.view_memory, d.software);
         if (!options.extent)
             live.finish_programs();  // what is measured is what will draw
         d.default_extent = options.extent ? *options.extent
-                                          : start_extent(live.shared(), d.camera, options.settings);
+                                          : start_extent(live.shared(), d.camera, d.settings);
         publish(std::move(d));
         loader = std::make_unique<GlWorker>(*context);
         ready.set_value();
@@ -122,6 +124,7 @@ void Renderer::State::take_scene(const Context& context, LiveScene& live)
     live.show(std::move(next->loaded));
     RendererDescription d = describe(context, live);
     d.default_extent = description->default_extent;
+    d.settings = settings_for(live.scene(), options.settings, options.set);
     publish(std::move(d));
     next->shown.set_value();
 }

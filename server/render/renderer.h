@@ -88,6 +88,7 @@ struct RendererDescription {
     std::size_t triangles = 0;
     std::size_t lights = 0;
     std::optional<Course> course;  ///< Of what follows time; absent: nothing does.
+    RenderSettings settings;  ///< Defaults of every new client.
     Extent default_extent;
     int max_dimension = 0;  ///< Largest width or height the device can draw.
 };
@@ -96,7 +97,8 @@ struct RendererOptions {
     std::string device = "auto";  ///< auto, software, gpu, gpu:N
     std::optional<Extent>
         extent;  ///< Absent: measured so that the first picture moves at 10 frames a second.
-    RenderSettings settings;  ///< Defaults of every new client.
+    RenderSettings settings;  ///< Defaults of every new client, unless the scene names others.
+    std::vector<std::string> set = {};  ///< key=value, in order: these win over the scene's.
     /// What all views together may hold [bytes]; 0: half of this machine's memory on a software
     /// device, 8 GiB on hardware. A frame that would need more is refused, with the need and the
     /// limit in RenderedFrame::error.

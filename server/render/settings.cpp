@@ -182,12 +182,12 @@ void set_setting(RenderSettings& settings, std::string_view key_equals_value)
         settings, key_equals_value.substr(0, equals), json(key_equals_value.substr(equals + 1)));
 }
 
-json describe_settings(const RenderSettings& settings)
+json describe_settings(const RenderSettings& settings, const RenderSettings& defaults)
 {
     json rows = rows_of(settings);
-    const json defaults = rows_of(RenderSettings{});
+    const json default_rows = rows_of(defaults);
     for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i]["default"] = defaults[i]["value"];
+        rows[i]["default"] = default_rows[i]["value"];
     return rows;
 }
 

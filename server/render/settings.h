@@ -171,6 +171,6 @@ void set_setting(RenderSettings& settings, std::string_view key_equals_value);
 
 /// [{"key", "type": "choice"|"integer"|"real"|"boolean"|"text", "value", "default", "choices" |
 /// "lower","upper", "help"}].
-nlohmann::json describe_settings(const RenderSettings& settings);
+nlohmann::json describe_settings(const RenderSettings& settings, const RenderSettings& defaults);
 
 }  // namespace farlight

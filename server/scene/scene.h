@@ -229,6 +229,9 @@ struct Bounds {
     double radius() const { return 0.5 * glm::length(upper - lower); }
 };
 
+/// A setting's value as a file may write it.
+using SettingValue = std::variant<bool, double, std::string>;
+
 struct Scene {
     std::string name;
     std::string file;
@@ -246,6 +249,8 @@ struct Scene {
     Animation animation;  ///< Empty when nothing moves.
     CameraPose camera;
     std::map<std::string, std::vector<CameraKeyframe>> camera_paths;
+    std::map<std::string, SettingValue>
+        settings;  ///< What the scene is to be drawn with unless somebody says otherwise.
     std::vector<std::string> notes;  ///< What the loader decided or repaired, one sentence each.
 };
 

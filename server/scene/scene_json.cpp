@@ -37,6 +37,7 @@ Scene scene_from_json(const Json& document, const SceneSource& source, SceneFile
     scene.file = source.name;
     read_environment(document, root, files, scene);
     read_fog(document, scene);
+    read_settings(document, scene);
     SceneMaterials materials(scene, files);
     if (document.contains("materials"))
         materials.read(document["materials"], root / "materials");

@@ -90,4 +90,18 @@ void read_camera_paths(const Json& document, const ScenePlace& root, Scene& scen
         scene.camera_paths[name] = read_path(keyframes, scene.camera, root / "camera_paths" / name);
 }
 
+void read_settings(const Json& document, Scene& scene)
+{
+    if (!document.contains("settings"))
+        return;
+    for (const auto& [key, value] : document["settings"].items()) {
+        if (value.is_boolean())
+            scene.settings[key] = value.get<bool>();
+        else if (value.is_number())
+            scene.settings[key] = value.get<double>();
+        else
+            scene.settings[key] = value.get<std::string>();
+    }
+}
+
 }  // namespace farlight

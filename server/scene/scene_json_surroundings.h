@@ -1,4 +1,4 @@
-// /background, /environment, /fog, /camera, /camera_paths of a Farlight scene document.
+// /background, /environment, /fog, /camera, /camera_paths, /settings of a Farlight scene document.
 #pragma once
 
 #include "server/scene/scene_files.h"
@@ -17,5 +17,8 @@ void read_camera(const nlohmann::json& document, const ScenePlace& root, Scene& 
 
 /// Keyframes start from the scene's camera.
 void read_camera_paths(const nlohmann::json& document, const ScenePlace& root, Scene& scene);
+
+/// As written: what they may be, the renderer knows.
+void read_settings(const nlohmann::json& document, Scene& scene);
 
 }  // namespace farlight

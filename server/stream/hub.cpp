@@ -24,7 +24,7 @@ std::shared_ptr<const SessionDefaults> defaults_of(
     defaults->welcome = describe_server(description);
     defaults->welcome.edits = options.edits;
     defaults->request.camera = description.camera;
-    defaults->request.settings = options.settings;
+    defaults->request.settings = description.settings;
     defaults->request.extent = description.default_extent;
     defaults->max_dimension = description.max_dimension;
     defaults->deadlines = options.session;

@@ -21,7 +21,6 @@ struct StreamOptions {
     std::uint16_t port = 8080;  ///< 0: any free one.
     std::vector<std::string> allowed_origins;  ///< Besides the server's own; "*" allows all.
     int max_clients = 64;
-    RenderSettings settings;  ///< Defaults of every new session.
     bool edits = true;  ///< Clients may change the scene.
 
     // Deadlines; tests shorten them.

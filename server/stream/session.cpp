@@ -71,7 +71,7 @@ void Session::on(const protocol::Hello& hello, Time now)
     welcome.size = {static_cast<std::uint32_t>(request.extent.width),
         static_cast<std::uint32_t>(request.extent.height)};
     welcome.max_in_flight = hello.max_in_flight;
-    welcome.settings = describe_settings(request.settings);
+    welcome.settings = describe_settings(request.settings, defaults_->request.settings);
     effects_.push_back(effects::Say{std::move(welcome)});
 }
 

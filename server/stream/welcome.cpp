@@ -71,7 +71,7 @@ protocol::Welcome describe_server(const RendererDescription& description)
 std::map<std::string, nlohmann::json> setting_values(const RenderSettings& settings)
 {
     std::map<std::string, nlohmann::json> values;
-    for (const nlohmann::json& row : describe_settings(settings))
+    for (const nlohmann::json& row : describe_settings(settings, settings))
         values[row.at("key").get<std::string>()] = row.at("value");
     return values;
 }

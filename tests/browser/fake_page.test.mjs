@@ -290,8 +290,7 @@ test("time runs along its line, stops, goes where it is put and begins anew", as
     const port = server.port;
     await server.kill();
     server = await new FakeServer({ moves: { duration: 2.5 } }).start(port);
-    await until(page, () => window.farlight.connected);
-    assert.deepEqual(received("hello")[0].settings, { play: false, time: 1.5 }); // held still, it stays where it was
+    assert.deepEqual((await untilReceived("hello")).settings, { play: false, time: 1.5 }); // held still, it stays where it was
     await page.locator("#time-play").click();
     await until(page, () => document.getElementById("time-play").textContent === "Play again");
     await page.locator("#time-play").click();

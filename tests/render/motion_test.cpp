@@ -125,6 +125,28 @@ INSTANTIATE_TEST_SUITE_P(ScalesAndPlaces, InstanceTest,
         Placement{"Huge", 1e4, {0, 0, 0}}, Placement{"FarAway", 1, {1e3, 500, -250}}),
     [](const auto& test) { return test.param.name; });
 
+TEST_F(GlTest, AfterTheLastKeyTimeGoesOnButThePictureRests)
+{
+    Scene scene = things_of_all_kinds();
+    hang_on_nodes(
+        scene, [](std::size_t i) { return placed(i, 1, {}); }, true);
+    const Course course = course_of(scene.animation);
+    ASSERT_FALSE(course.any_repeats);
+    const TestScene on_device(scene);
+    View view(on_device.shared);
+    RenderRequest request = linear_request(on_device.scene, {32, 24}, RenderSettings{});
+    request.settings.denoiser = Denoiser::kAccumulate;
+    std::vector<std::uint32_t> samples;
+    for (const double after : {-0.1, 0.1, 0.2, 0.3}) {
+        request.time = course.duration + after;
+        const RenderedFrame frame = view.render(request);
+        EXPECT_EQ(frame.moves, after < 0) << after;
+        EXPECT_EQ(frame.time, course.duration + std::min(after, 0.0));
+        samples.push_back(frame.accumulated_samples);
+    }
+    EXPECT_EQ(samples, (std::vector<std::uint32_t>{1, 1, 2, 3}));
+}
+
 /// While time stands still, what could move has exactly no motion, and pictures may be averaged;
 /// nor has what never moves in a space of its own, as a disc that its carrier squeezes.
 TEST_F(GlTest, PausedThingsHaveExactlyNoMotion)

@@ -13,7 +13,7 @@ using nlohmann::json;
 TEST(SettingsTest, EveryRowReadsBackWhatItDescribes)
 {
     RenderSettings settings;
-    for (const json& row : describe_settings(settings)) {
+    for (const json& row : describe_settings(settings, {})) {
         SCOPED_TRACE(row.dump());
         EXPECT_EQ(row["value"], row["default"]);
         EXPECT_FALSE(row["help"].get<std::string>().empty());
@@ -122,7 +122,7 @@ TEST_F(SettingsReachTheImage, EverySettingChangesTheImage)
     };
     for (const bool refine : {false, true}) {
         const auto usual = render({}, refine);
-        for (const json& row : describe_settings({})) {
+        for (const json& row : describe_settings({}, {})) {
             const std::string key = row["key"];
             const bool of_resting = key == "refine_crossover" || key == "antialiasing";
             if (elsewhere.contains(key) || of_resting != refine)

@@ -193,6 +193,7 @@ TEST(DrawPlan, LockstepAdvancesByTheStepAndNotByTheClock)
     RenderSettings settings = settings_with(true, 1);
     settings.time_step = 0.25F;
     plan.set_settings(settings, kStart);
+    plan.go_to_time(kStart);
     for (int i = 0; i < 3; ++i)
         plan.move_camera(pose_at(i), static_cast<std::uint32_t>(i + 1), false, kStart + i * 7s);
     settings.play = false;

@@ -23,7 +23,7 @@ TEST(Flags, ReadsTheWholeCommandLine)
     EXPECT_EQ(flags.renderer.device, "software");
     EXPECT_EQ(flags.renderer.extent, (Extent{640, 360}));
     EXPECT_EQ(flags.renderer.settings.samples_per_pixel, 4);
-    EXPECT_EQ(flags.stream.settings.seed, 7U);
+    EXPECT_EQ(flags.renderer.settings.seed, 7U);
     EXPECT_EQ(flags.stream.bind, "0.0.0.0");
     EXPECT_EQ(flags.stream.port, 0);
     EXPECT_EQ(flags.stream.allowed_origins, std::vector<std::string>{"https://example.org"});

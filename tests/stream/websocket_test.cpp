@@ -83,7 +83,7 @@ TEST(WebSocket, WelcomeSaysWhatHolds)
     EXPECT_EQ(welcome.size, (protocol::Size{64, 36}));
     EXPECT_EQ(welcome.max_in_flight, 3U);
     EXPECT_EQ(welcome.limits.max_dimension, 4096U);
-    EXPECT_EQ(welcome.settings.size(), describe_settings({}).size());
+    EXPECT_EQ(welcome.settings.size(), describe_settings({}, {}).size());
 }
 
 TEST(WebSocket, ARawFrameIsWhatTheRendererDrew)
