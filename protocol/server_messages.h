@@ -214,6 +214,7 @@ struct Inspection {
     std::vector<std::string> passes;
     std::vector<MemoryUse> scene_memory;
     std::vector<MemoryUse> view_memory;
+    double compile_ms = 0;  ///< Of the scene's own programs; 0: not yet compiled.
 
     bool operator==(const Inspection&) const = default;
 
@@ -225,6 +226,7 @@ struct Inspection {
         visit("passes", m.passes, Rule{});
         visit("scene_memory", m.scene_memory, Rule{});
         visit("view_memory", m.view_memory, Rule{});
+        visit("compile_ms", m.compile_ms, Rule{});
     }
 };
 

@@ -59,6 +59,7 @@ protocol::Inspection inspection_of(const RenderedFrame& frame)
         inspection.passes.push_back(time.pass);
     for (const auto& [name, bytes] : frame.memory)
         inspection.view_memory.push_back({name, bytes});
+    inspection.compile_ms = frame.compile_ms;
     return inspection;
 }
 

@@ -99,6 +99,7 @@ TEST_F(CommandTest, BenchEffectsComparesTheProgramsAndLeavesEachEffectIn)
     EXPECT_EQ(parsed["scenes"][0]["effects"], "fog");
     EXPECT_EQ(parsed["scenes"][0]["general"]["view_bytes"], 2048);
     EXPECT_EQ(parsed["scenes"][0]["ratio"], 1.0);
+    EXPECT_EQ(parsed["scenes"][0]["compile_ms"], 250);
 }
 
 TEST_F(CommandTest, RecordWritesNumberedFrames)

@@ -215,7 +215,7 @@ void serve_lockstep(FakePeer& peer, const FakeRenderer& renderer)
                 peer.send(SceneChanged{edit->id, welcome.scene, {}});
         } else if (std::holds_alternative<Inspect>(message)) {
             peer.send(Inspection{{{"fog", "medium 'haze'"}}, {"fog", "lens"}, {"path_trace"},
-                {{"bvh_nodes", 1024}}, {{"gbuffer", 2048}}});
+                {{"bvh_nodes", 1024}}, {{"gbuffer", 2048}}, 250});
         } else if (std::holds_alternative<ClientBye>(message)) {
             return peer.close(1000, "");
         }

@@ -8,6 +8,7 @@
 #include <epoxy/gl.h>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace farlight {
@@ -119,6 +120,43 @@ TEST_F(ProgramBinariesTest, TheLeastRecentlyUsedGoWhenTheFolderIsFull)
     EXPECT_EQ(files(), 3U);
     EXPECT_TRUE(small.load(source("a")));
     EXPECT_TRUE(small.load(source("d")));
+}
+
+/// Two servers that store the same programs and others, in a folder too small for all: a reader
+/// finds an entry whole or not at all, whoever wrote it last.
+TEST_F(ProgramBinariesTest, TwoServersMayShareAFolder)
+{
+    constexpr std::size_t kBytes = 20'000;
+    constexpr int kRounds = 200;
+    const ProgramBinaries small(folder_, "driver 1", 5 * kBytes);
+    const auto write_as = [&](std::byte fill, std::size_t bytes) {
+        for (int i = 0; i < kRounds; ++i)
+            small.store(source(std::to_string(i % 7)), binary(bytes, fill));
+    };
+    const pid_t other = fork();
+    ASSERT_GE(other, 0);
+    if (other == 0) {
+        write_as(std::byte{2}, kBytes / 2);
+        _exit(0);
+    }
+    int found = 0;
+    for (int i = 0; i < kRounds; ++i) {
+        small.store(source(std::to_string(i % 7)), binary(kBytes, std::byte{1}));
+        if (const auto entry = small.load(source(std::to_string(i % 3)))) {
+            ++found;
+            ASSERT_FALSE(entry->bytes.empty());
+            const std::byte fill = entry->bytes.front();
+            EXPECT_EQ(entry->bytes, binary(fill == std::byte{1} ? kBytes : kBytes / 2, fill).bytes);
+        }
+    }
+    int status = -1;
+    ASSERT_EQ(waitpid(other, &status, 0), other);
+    EXPECT_EQ(status, 0);
+    EXPECT_GT(found, 0);
+    small.store(source("last"), binary(kBytes, std::byte{1}));
+    EXPECT_TRUE(small.load(source("last")));
+    for (const auto& file : fs::directory_iterator(folder_))
+        EXPECT_EQ(file.path().extension(), ".bin") << "unfinished: " << file.path();
 }
 
 TEST_F(ProgramBinariesTest, AFolderThatCannotBeWrittenHurtsNobody)

@@ -5,6 +5,7 @@
 #include "tests/support/meshes.h"
 
 #include <atomic>
+#include <functional>
 
 namespace farlight {
 namespace {
@@ -74,6 +75,39 @@ TEST_F(SceneProgramsTest, ASceneThatCallsForMoreIsDrawnWithItAtOnce)
     // Without fog again, the smaller programs are still there.
     live.show(load_onto_device(room_));
     EXPECT_EQ(draw(view, room_).effects, before.effects);
+}
+
+/// Edit upon edit, faster than any compiler: no frame shows a scene with programs of another.
+TEST_F(SceneProgramsTest, NoFrameLacksWhatAnEditHasBrought)
+{
+    const std::function<void(Scene&)> edits[] = {
+        [](Scene& s) { s.lens.radius = 0.05; },
+        [](Scene& s) { s.materials[s.objects[0].material].metallic = 1; },
+        [](Scene& s) {
+            s.medium = {"haze", glm::vec3(0.1F), glm::vec3(0.1F), 0};
+        },
+        [](Scene& s) { s.lights.push_back({.name = "lamp", .intensity = glm::vec3(2)}); },
+        [](Scene& s) { s.medium = {}; },
+        [](Scene& s) { s.background = glm::vec3(0.3F); },
+    };
+    LiveScene live(context(), options_, [] {});
+    Scene scene = room_;
+    live.show(load_onto_device(scene));
+    live.prepare_programs({});
+    live.finish_programs();
+    View view(live.shared());
+    draw(view, scene);
+    for (const auto& edit : edits) {
+        edit(scene);
+        live.show(load_onto_device(scene));
+        const EffectMask called_for = mask_of(live.gpu().effects());
+        EXPECT_TRUE(draw(view, scene).effects.contains(called_for));
+        View fresh(live.shared());
+        const RenderedFrame shown = draw(fresh, scene);
+        EXPECT_TRUE(shown.effects.contains(called_for));
+        View general(live.shared());
+        EXPECT_EQ(draw(general, scene, kGeneral).image.bytes, shown.image.bytes);
+    }
 }
 
 TEST_F(SceneProgramsTest, AListHoldsWhatTheSceneCallsForAnyway)
