@@ -113,6 +113,7 @@ ScenePrograms::ScenePrograms(ProgramCache& programs, const ProgramBinaries* bina
 void ScenePrograms::follow(std::shared_ptr<const GpuScene> scene)
 {
     scene_ = std::move(scene);
+    last_compile_ms_ = 0;
     scene_mask_ = mask_of(scene_->effects());
 }
 
@@ -192,7 +193,7 @@ void ScenePrograms::collect()
         finished.swap(background_->finished);
     }
     for (Finished& one : finished) {
-        last_compile_ms_ = one.ms;
+        last_compile_ms_ += one.ms;
         spdlog::info("programs for {} effects compiled in the background in {:.0f} ms",
             one.mask.size(), one.ms);
         for (auto& [key, program] : one.programs)

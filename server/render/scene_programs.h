@@ -44,7 +44,7 @@ public:
     void wait_for_worker();
 
     EffectMask scene_mask() const { return scene_mask_; }
-    /// Of special programs compiled in the background, how long the last ones took [ms]; 0: none.
+    /// How long the worker took for this scene's special programs so far [ms]; 0: none is ready.
     double last_compile_ms() const { return last_compile_ms_; }
 
 private:
