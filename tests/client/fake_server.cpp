@@ -214,8 +214,12 @@ void serve_lockstep(FakePeer& peer, const FakeRenderer& renderer)
             else
                 peer.send(SceneChanged{edit->id, welcome.scene, {}});
         } else if (std::holds_alternative<Inspect>(message)) {
-            peer.send(Inspection{{{"fog", "medium 'haze'"}}, {"fog", "lens"}, {"path_trace"},
-                {{"bvh_nodes", 1024}}, {{"gbuffer", 2048}}, 250});
+            peer.send(Inspection{.effects = {{"fog", "medium 'haze'"}},
+                .program = {"fog", "lens"},
+                .passes = {"path_trace"},
+                .scene_memory = {{"bvh_nodes", 1024}},
+                .view_memory = {{"gbuffer", 2048}},
+                .compile_ms = 250});
         } else if (std::holds_alternative<ClientBye>(message)) {
             return peer.close(1000, "");
         }
