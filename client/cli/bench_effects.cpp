@@ -21,6 +21,7 @@ namespace farlight::client {
 namespace {
 
 constexpr double kDegreesPerFrame = 1;
+constexpr int kSettlingFrames = 12;
 /// A scene's own programs may be this much slower than the general ones: the noise of a good run.
 constexpr double kMostRatio = 1.01;
 constexpr std::chrono::seconds kCompileTimeout{120};
@@ -115,7 +116,8 @@ public:
         return ms;
     }
 
-    /// The first frame compiles; the second fills histories.
+    /// The first frame compiles; the later ones fill histories, and the server frees what only the
+    /// other side has use for.
     void warm_up(Side& side)
     {
         const auto begun = std::chrono::steady_clock::now();
@@ -123,7 +125,8 @@ public:
         side.first_ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun)
                 .count();
-        draw(side);
+        for (int frame = 0; frame < kSettlingFrames; ++frame)
+            draw(side);
         const protocol::Inspection inspection = inspect();
         side.view_bytes = sum_of(inspection.view_memory);
         side.passes = inspection.passes.size();

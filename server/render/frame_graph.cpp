@@ -33,7 +33,7 @@ void FrameGraph::begin_frame(Extent extent, std::vector<BlockInput> blocks)
 {
     for (Resource& resource : resources_)
         if (resource.kept && resource.transient && resource.texture != nullptr)
-            pool_.push_back(std::move(resource.texture));
+            pool_.push_back({std::move(resource.texture)});
     if (extent != extent_) {  // after the last frame's have come back, or they would be used again
         histories_.clear();
         pool_.clear();
@@ -44,12 +44,21 @@ void FrameGraph::begin_frame(Extent extent, std::vector<BlockInput> blocks)
             && resources_[static_cast<std::size_t>(pair.resource_current)].written;
         if (pair.written_last_frame)
             pair.current = 1 - pair.current;
+        pair.idle_frames = pair.resource_previous < 0 ? pair.idle_frames + 1 : 0;
         pair.resource_previous = pair.resource_current = -1;
     }
+    drop_idle();
     resources_.clear();
     passes_.clear();
     blocks_ = std::move(blocks);
     timer_.begin_frame();
+}
+
+void FrameGraph::drop_idle()
+{
+    std::erase_if(
+        histories_, [](const auto& entry) { return entry.second.idle_frames >= kIdleFrames; });
+    std::erase_if(pool_, [](Spare& spare) { return spare.idle_frames++ >= kIdleFrames; });
 }
 
 TextureHandle FrameGraph::create(const std::string& name, GLenum format)
@@ -165,7 +174,7 @@ void FrameGraph::run(const Pass& pass, int pass_index)
         }
         if (resource.transient && !resource.kept && resource.last_pass == pass_index
             && resource.texture != nullptr)
-            pool_.push_back(std::move(resource.texture));
+            pool_.push_back({std::move(resource.texture)});
     }
 }
 
@@ -174,9 +183,9 @@ void FrameGraph::acquire(Resource& resource)
     if (resource.texture != nullptr)
         return;
     const auto found = std::find_if(pool_.begin(), pool_.end(),
-        [&](const auto& texture) { return texture->format() == resource.format; });
+        [&](const Spare& spare) { return spare.texture->format() == resource.format; });
     if (found != pool_.end()) {
-        resource.texture = std::move(*found);
+        resource.texture = std::move(found->texture);
         pool_.erase(found);
         resource.texture->relabel(resource.name);
     } else {
@@ -276,8 +285,8 @@ std::vector<TextureAllocation> FrameGraph::allocations() const
                 bytes_per_texel(texture->format()) * static_cast<std::size_t>(extent_.width)
                     * static_cast<std::size_t>(extent_.height)});
     };
-    for (const auto& texture : pool_)
-        add("scratch", texture);
+    for (const Spare& spare : pool_)
+        add("scratch", spare.texture);
     for (const Resource& resource : resources_)
         if (resource.transient)
             add(resource.name, resource.texture);

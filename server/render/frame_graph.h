@@ -36,11 +36,15 @@ struct TextureAllocation {
 
 class FrameGraph {
 public:
+    /// Enough for callers that draw in turns with and without something.
+    static constexpr int kIdleFrames = 8;
+
     /// `software`: passes are timed by the host clock.
     /// `strict`: see DeclarationCheck.
     FrameGraph(ProgramCache& programs, bool software, bool strict);
 
-    /// Starts declaring a frame. A changed extent drops every texture and so every history.
+    /// Starts declaring a frame. A changed extent drops every texture and so every history; what
+    /// kIdleFrames frames had no use for is dropped too.
     void begin_frame(Extent extent, std::vector<BlockInput> blocks);
     Extent extent() const { return extent_; }
 
@@ -91,11 +95,19 @@ private:
         GLenum format = 0;
         std::array<std::shared_ptr<GpuTexture>, 2> textures;
         int current = 0;
+        int idle_frames = 0;
         bool written_last_frame = false;
         int resource_previous = -1;
         int resource_current = -1;
     };
 
+    /// A texture that the next transient of its format may take.
+    struct Spare {
+        std::shared_ptr<GpuTexture> texture;
+        int idle_frames = 0;
+    };
+
+    void drop_idle();
     void find_lifetimes();
     void allocate_histories();
     void run(const Pass& pass, int pass_index);
@@ -113,7 +125,7 @@ private:
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
     std::map<std::string, HistoryPair> histories_;
-    std::vector<std::shared_ptr<GpuTexture>> pool_;
+    std::vector<Spare> pool_;
     std::vector<GLuint> dirty_;  ///< Textures written since the last barrier.
     std::vector<GLuint> read_;  ///< Textures read since: a write to one must wait too.
     int barriers_ = 0;

@@ -35,10 +35,14 @@ protected:
         add_shader_file("tests/fill", kFill);
         graph.begin_frame(kFrameGraphExtent, {});
     }
+    void fill(TextureHandle texture, float amount)
+    {
+        graph.add_pass("fill", "tests/fill").write("out_value", texture).constant("amount", amount);
+    }
     TextureHandle filled(float amount)
     {
         const TextureHandle texture = graph.create("filled", GL_RGBA32F);
-        graph.add_pass("fill", "tests/fill").write("out_value", texture).constant("amount", amount);
+        fill(texture, amount);
         return texture;
     }
     TextureHandle plus(TextureHandle texture, float amount)
@@ -138,9 +142,7 @@ TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndAfterAResi
     const auto write = [&](Extent extent) {
         graph.begin_frame(extent, {});
         const History history = graph.history("count", GL_RGBA32F);
-        graph.add_pass("fill", "tests/fill")
-            .write("out_value", history.current)
-            .constant("amount", 1.0F);
+        fill(history.current, 1);
         graph.execute();
         return history.valid;
     };
@@ -173,6 +175,29 @@ TEST_F(FrameGraphTest, AfterAResizeEveryTextureHasTheNewSize)
     };
     for (const Extent extent : {kFrameGraphExtent, Extent{24, 16}, Extent{8, 8}, kFrameGraphExtent})
         draw(extent);
+}
+
+TEST_F(FrameGraphTest, WhatFramesNoLongerDeclareIsFreed)
+{
+    const auto frame = [&](bool all) {
+        graph.begin_frame(kFrameGraphExtent, {});
+        filled(1);
+        if (all) {
+            fill(graph.history("h", GL_RGBA32F).current, 2);
+            fill(graph.create("half", GL_RGBA16F), 3);
+        }
+        graph.execute();
+        return graph.texture_bytes();
+    };
+    const std::size_t least = frame(false);
+    const std::size_t most = frame(true);
+    EXPECT_GT(most, least);
+    for (int i = 0; i < FrameGraph::kIdleFrames; ++i)
+        frame(i % 2 == 0);
+    EXPECT_EQ(frame(true), most) << "what is used in turns is kept";
+    for (int i = 0; i < FrameGraph::kIdleFrames; ++i)
+        frame(false);
+    EXPECT_EQ(frame(false), least);
 }
 
 TEST_F(FrameGraphTest, RefusesAConstantTheShaderDoesNotUse)
