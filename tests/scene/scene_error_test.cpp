@@ -40,11 +40,11 @@ INSTANTIATE_TEST_SUITE_P(Document, BadSceneTest,
         BadScene{"UnknownKey", R"({"colour": 1})",
             "/colour: found the unknown key \"colour\", expected one of $schema, background, "
             "camera, camera_paths, description, environment, fog, lights, materials, meshes, name, "
-            "objects, timeline, version"},
+            "objects, settings, timeline, version"},
         BadScene{"KeyWithASlash", R"({"a/b~c": 1})",
             "/a~1b~0c: found the unknown key \"a/b~c\", expected one of $schema, background, "
             "camera, camera_paths, description, environment, fog, lights, materials, meshes, name, "
-            "objects, timeline, version"},
+            "objects, settings, timeline, version"},
         BadScene{"NoObjects", R"({"objects": []})",
             "/objects: found an empty array, expected an array of at least one object, or an "
             "object with one by each name"},
