@@ -1,20 +1,12 @@
 // What of a scene shows at a glance.
 #include "server/render/scene_look.h"
 
+#include "server/scene/material_response.h"
+
 #include <algorithm>
 
 namespace farlight {
 namespace {
-
-bool is_black(const glm::vec3& color)
-{
-    return !(color.x > 0 || color.y > 0 || color.z > 0);
-}
-
-bool reflects(const Material& m)
-{
-    return !m.unlit && (!is_black(m.albedo) || m.specular > 0 || m.clearcoat > 0);
-}
 
 bool any_light(const Scene& scene)
 {
@@ -32,7 +24,7 @@ bool any_scatterer(const Scene& scene)
 {
     return !is_black(scene.medium.sigma_s)
         || std::any_of(scene.objects.begin(), scene.objects.end(),
-            [&](const Object& object) { return reflects(scene.materials[object.material]); });
+            [&](const Object& object) { return scatters(scene.materials[object.material]); });
 }
 
 bool any_holes(const Scene& scene)

@@ -1,6 +1,7 @@
 // Reasons, from what shapes are made of down to the camera. Each finds the first thing of its kind.
 #include "server/scene/effect_reasons.h"
 
+#include "server/scene/material_response.h"
 #include "server/scene/textures.h"
 
 #include <algorithm>
@@ -25,11 +26,6 @@ std::string shown(const glm::vec3& v)
 std::string quoted(const std::string& name)
 {
     return "'" + name + "'";
-}
-
-bool is_lit(const glm::vec3& radiance)
-{
-    return radiance.x > 0 || radiance.y > 0 || radiance.z > 0;
 }
 
 /// The first object left after packing that `wanted` accepts.
@@ -82,7 +78,7 @@ const Mesh* mesh_of(const Scene& scene, const Object& object)
 }
 bool emits(const Scene& scene, const Object& object)
 {
-    return is_lit(scene.materials[object.material].emission);
+    return !is_black(scene.materials[object.material].emission);
 }
 
 /// Whether a track moves the node or one that carries it.
@@ -113,10 +109,6 @@ bool is_deformed(const Scene& scene, std::size_t object)
             });
 }
 
-bool reflects(const Material& m)
-{
-    return !m.unlit && (m.metallic > 0 || m.specular > 0 || m.transmission > 0);
-}
 /// What a texture says is held above the threshold, so a textured roughness is never sharp.
 bool is_sharp(const Material& m)
 {
@@ -222,7 +214,7 @@ Reason delta_lights(const Scene& scene, const SceneContent& /*content*/)
 {
     static constexpr const char* kKinds[] = {"point", "spot", "directional"};
     for (const PunctualLight& light : scene.lights)
-        if (is_lit(light.intensity))
+        if (!is_black(light.intensity))
             return std::string(kKinds[static_cast<std::size_t>(light.kind)]) + " light "
                 + quoted(light.name) + ", intensity " + shown(light.intensity);
     return std::nullopt;
@@ -237,7 +229,7 @@ Reason light_tree(const Scene& /*scene*/, const SceneContent& content)
 
 Reason background(const Scene& scene, const SceneContent& /*content*/)
 {
-    if (!is_lit(scene.background))
+    if (is_black(scene.background))
         return std::nullopt;
     return "background radiance " + shown(scene.background)
         + (scene.environment ? " times a map" : "");
@@ -245,7 +237,7 @@ Reason background(const Scene& scene, const SceneContent& /*content*/)
 
 Reason environment_map(const Scene& scene, const SceneContent& /*content*/)
 {
-    if (!scene.environment || !is_lit(scene.background))
+    if (!scene.environment || is_black(scene.background))
         return std::nullopt;
     return "environment " + quoted(scene.environment->file) + ", "
         + std::to_string(scene.environment->width) + "x"
@@ -341,8 +333,7 @@ Reason alpha(const Scene& scene, const SceneContent& content)
 
 Reason specular_signal(const Scene& scene, const SceneContent& content)
 {
-    return by_material(scene, content, "glossy",
-        [](const Material& m) { return reflects(m) || (!m.unlit && m.clearcoat > 0); });
+    return by_material(scene, content, "glossy", is_glossy);
 }
 
 // ---------------------------------------------------------------- medium, camera
@@ -350,7 +341,7 @@ Reason specular_signal(const Scene& scene, const SceneContent& content)
 Reason fog(const Scene& scene, const SceneContent& /*content*/)
 {
     const glm::vec3 sigma_t = scene.medium.sigma_a + scene.medium.sigma_s;
-    if (!is_lit(sigma_t))
+    if (is_black(sigma_t))
         return std::nullopt;
     return "medium " + quoted(scene.medium.name) + ", sigma_t " + shown(sigma_t) + " 1/m";
 }

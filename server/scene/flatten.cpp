@@ -136,10 +136,10 @@ private:
 
     void add(const Disk& disk, const glm::dmat4& m)
     {
-        const glm::dvec3 normal = glm::normalize(glm::dmat3(m) * disk.normal);
-        group().disks.push_back(
-            {transformed_point(m, disk.center), static_cast<float>(disk.radius * scale_of(m)),
-                glm::vec3(normal), object_, light(light_of(disk))});
+        const Disk placed{glm::dvec3(m * glm::dvec4(disk.center, 1)),
+            glm::normalize(glm::dmat3(m) * disk.normal), disk.radius * scale_of(m)};
+        group().disks.push_back({glm::vec3(placed.center), static_cast<float>(placed.radius),
+            glm::vec3(placed.normal), object_, light(light_of(placed))});
     }
 
     void add(const Quad& quad, const glm::dmat4& m)

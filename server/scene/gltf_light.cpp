@@ -1,7 +1,8 @@
 // A candela is read as one W/sr, a lux as one W/m^2. Light does not end at a `range`.
 #include "server/scene/gltf_light.h"
 
-#include <algorithm>
+#include "server/scene/spot_cone.h"
+
 #include <numbers>
 
 namespace farlight {
@@ -26,12 +27,9 @@ glm::vec3 intensity_of(const Json& light, std::size_t& changed)
 void read_cone(const Json& light, PunctualLight& read, std::size_t& changed)
 {
     const Json spot = light.value("spot", Json::object());
-    const double inner = spot.value("innerConeAngle", 0.0);
-    const double outer = spot.value("outerConeAngle", std::numbers::pi / 4);
-    // An edge without width would be a hard one: a thousandth of the cone stands for it.
-    read.outer_cone = std::clamp(outer, 1e-3, std::numbers::pi / 2);
-    read.inner_cone = std::clamp(inner, 0.0, 0.999 * read.outer_cone);
-    changed += read.outer_cone == outer && read.inner_cone == inner ? 0 : 1;
+    read.inner_cone = spot.value("innerConeAngle", 0.0);
+    read.outer_cone = spot.value("outerConeAngle", std::numbers::pi / 4);
+    changed += clamp_cones(read) ? 1 : 0;
 }
 
 }  // namespace

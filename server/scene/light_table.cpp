@@ -5,6 +5,7 @@
 #include "server/scene/light_textures.h"
 
 #include <cassert>
+#include <cmath>
 
 namespace farlight {
 namespace {
@@ -35,10 +36,8 @@ LightTable::LightTable(const Scene& scene, const TextureLayout& layout,
     for (Light& light : lights_)
         texture_places_.push_back(textures.add(light));
     textures_ = textures.texels();
-    for (const PunctualLight& punctual : scene.lights) {
+    for (const PunctualLight& punctual : scene.lights)
         lights_.push_back(light_of(punctual, glm::dmat4(1)));
-        lights_.back().mean_luminance = luminance(punctual.intensity);
-    }
     if (scene.environment) {
         PackedEnvironment packed = pack_environment(*scene.environment, scene.map_from_world);
         environment_ = std::move(packed.texels);
@@ -88,9 +87,10 @@ void LightTable::pose_punctual_lights(const LightPose& pose)
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
         Light& light = lights_[area_lights_ + i];
         const std::uint32_t node = scene_.lights[i].node;
-        if (node != kNone && !pose.world_from_node.empty())
-            light = light_of(scene_.lights[i], pose.world_from_node[node]);
-        scale(light, rest_[area_lights_ + i], factor(pose.intensity, i));
+        light = node != kNone && !pose.world_from_node.empty()
+            ? light_of(scene_.lights[i], pose.world_from_node[node])
+            : rest_[area_lights_ + i];
+        scale(light, light, factor(pose.intensity, i));
     }
 }
 
@@ -99,6 +99,7 @@ void LightTable::choose_by_power()
     std::vector<double> weights;
     double total = 0;
     for (const Light& light : lights_) {
+        assert(light.power >= 0 && std::isfinite(light.power));
         weights.push_back(light.power);
         total += light.power;
     }
@@ -147,7 +148,7 @@ void LightTable::pack(std::span<const AliasSlot> slots)
 
 void LightTable::count_kinds(SceneContent& content) const
 {
-    for (const Light& light : lights_)
+    for (const Light& light : rest_)
         switch (light.kind) {
         case LIGHT_QUAD: ++content.polygon_lights; break;
         case LIGHT_TRIANGLE: ++content.emissive_triangles; break;

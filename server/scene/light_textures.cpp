@@ -70,12 +70,11 @@ const std::vector<Image8>& LightTextures::levels_of(std::uint32_t image)
     return levels;
 }
 
-/// Over a triangle, or a parallelogram, of texture coordinates.
-glm::dvec4 LightTextures::mean(
-    const Texture& texture, const std::array<glm::vec2, 3>& uv, bool triangle)
+glm::dvec4 LightTextures::mean(const Texture& texture, const std::array<glm::vec2, 3>& uv,
+    bool triangle, Detail detail, const Shown& shown)
 {
     if (!texture.used())
-        return glm::dvec4(1);
+        return shown(glm::dvec4(1));
     const std::vector<Image8>& levels = levels_of(texture.image);
     std::array<glm::dvec2, 3> at;
     for (std::size_t k = 0; k < 3; ++k)
@@ -85,7 +84,9 @@ glm::dvec4 LightTextures::mean(
     const double texels = std::abs(u.x * v.y - u.y * v.x) * levels[0].width * levels[0].height;
     // 8 x 8 places over at most as many texels of the level.
     constexpr int kPlaces = 8;
-    const double level = std::ceil(0.5 * std::log2(std::max(texels / (kPlaces * kPlaces), 1.0)));
+    const double level = detail == Detail::kFinest
+        ? 0
+        : std::ceil(0.5 * std::log2(std::max(texels / (kPlaces * kPlaces), 1.0)));
     const Image8& image = levels[std::min(static_cast<std::size_t>(level), levels.size() - 1)];
     glm::dvec4 sum(0);
     for (int i = 0; i < kPlaces; ++i)
@@ -94,7 +95,7 @@ glm::dvec4 LightTextures::mean(
             double t = (j + 0.5) / kPlaces;
             if (triangle && s + t > 1)
                 s = 1 - s, t = 1 - t;
-            sum += glm::dvec4(nearest(image, texture, at[0] + s * u + t * v));
+            sum += shown(glm::dvec4(nearest(image, texture, at[0] + s * u + t * v)));
         }
     return sum / static_cast<double>(kPlaces * kPlaces);
 }
@@ -112,10 +113,15 @@ std::uint32_t LightTextures::add(Light& light)
     const auto opacity_uv = corner_uvs(scene_, light, opacity.uv_set);
     const bool triangle = std::holds_alternative<MeshInstance>(scene_.objects[light.object].shape);
     const auto constant = static_cast<double>(material.opacity);
-    const double there = coverage(material, constant * mean(opacity, opacity_uv, triangle).w);
-    light.mean_luminance = there
-        * luminance(
-            glm::dvec3(material.emission) * glm::dvec3(mean(emission, emission_uv, triangle)));
+    // A mask cuts what the finest level shows: of a coarser one it would leave all or nothing.
+    const Detail detail =
+        material.alpha_mode == AlphaMode::kMask ? Detail::kFinest : Detail::kAveraged;
+    const double there = mean(opacity, opacity_uv, triangle, detail, [&](const glm::dvec4& texel) {
+        return glm::dvec4(coverage(material, constant * texel.w));
+    }).w;
+    const glm::dvec4 color = mean(emission, emission_uv, triangle, Detail::kAveraged,
+        [](const glm::dvec4& texel) { return texel; });
+    light.mean_luminance = there * luminance(glm::dvec3(material.emission) * glm::dvec3(color));
     if (!emission.used() && !opacity.used()) {
         light.radiance *= static_cast<float>(there);
         return 0;

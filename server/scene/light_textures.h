@@ -5,6 +5,7 @@
 #include "server/scene/texels.h"
 #include "server/scene/textures.h"
 
+#include <functional>
 #include <map>
 
 namespace farlight {
@@ -24,7 +25,12 @@ public:
 
 private:
     const std::vector<Image8>& levels_of(std::uint32_t image);
-    glm::dvec4 mean(const Texture& texture, const std::array<glm::vec2, 3>& uv, bool triangle);
+    enum class Detail { kFinest, kAveraged };
+    using Shown = std::function<glm::dvec4(const glm::dvec4&)>;
+    /// Of what is `shown` of the texels over a triangle, or a parallelogram, of texture
+    /// coordinates.
+    glm::dvec4 mean(const Texture& texture, const std::array<glm::vec2, 3>& uv, bool triangle,
+        Detail detail, const Shown& shown);
 
     const Scene& scene_;
     const TextureLayout& layout_;

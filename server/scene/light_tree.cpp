@@ -53,6 +53,8 @@ struct LightBounds {
     void extend(const LightBounds& other)
     {
         box.extend(other.box);
+        if (!(other.intensity > 0))
+            return;
         normals = joined(normals, other.normals);
         spread = std::max(spread, other.spread);
         intensity += other.intensity;
@@ -81,11 +83,28 @@ Bounds box_of(const Light& light)
     return box;
 }
 
+/// Of a spot, a disk or a polygon; not of unit length. Of a sphere and a point light: any.
+glm::dvec3 axis_of(const Light& light)
+{
+    const glm::dvec3 v(light.edge_v);
+    switch (light.kind) {
+    case LIGHT_QUAD:
+    case LIGHT_TRIANGLE: return glm::cross(glm::dvec3(light.edge_u), v);
+    case LIGHT_SPHERE:
+    case LIGHT_POINT: return {0, 0, 1};
+    default: return v;
+    }
+}
+
 LightBounds bounds_of(const Light& light)
 {
-    const glm::dvec3 axis(light.edge_v);
     const double area = light.area;
+    const glm::dvec3 axis = axis_of(light);
     LightBounds bounds{box_of(light), {}, pi / 2, light.mean_luminance, light.emits_both_sides};
+    // What has collapsed has no direction, and what is off needs none.
+    const bool shines = light.kind >= LIGHT_POINT || (area > 0 && glm::dot(axis, axis) > 0);
+    if (!shines || !(light.mean_luminance > 0))
+        return {bounds.box, {{0, 0, 1}, pi}};
     switch (light.kind) {
     case LIGHT_SPHERE:
         bounds.normals = {{0, 0, 1}, pi};
@@ -104,7 +123,7 @@ LightBounds bounds_of(const Light& light)
         break;
     }
     default:
-        bounds.normals = {glm::normalize(glm::cross(glm::dvec3(light.edge_u), axis)), 0};
+        bounds.normals = {glm::normalize(axis), 0};
         bounds.intensity *= area;
         break;
     }

@@ -23,7 +23,7 @@ Light light_of(const Disk& disk)
 {
     Light light{.kind = LIGHT_DISK, .p0 = glm::vec3(disk.center)};
     light.edge_u.x = static_cast<float>(disk.radius);
-    light.edge_v = glm::vec3(glm::normalize(disk.normal));
+    light.edge_v = glm::vec3(disk.normal);
     light.area = static_cast<float>(pi * disk.radius * disk.radius);
     return light;
 }
@@ -48,8 +48,13 @@ Light light_of(const PunctualLight& punctual, const glm::dmat4& world_from_node)
     static constexpr std::uint32_t kKinds[] = {LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL};
     Light light{.kind = kKinds[static_cast<std::size_t>(punctual.kind)]};
     light.p0 = glm::vec3(world_from_node * glm::dvec4(punctual.position, 1));
-    light.edge_v = glm::vec3(glm::normalize(glm::dmat3(world_from_node) * punctual.direction));
-    light.radiance = punctual.intensity;
+    const glm::dvec3 way = glm::dmat3(world_from_node) * punctual.direction;
+    const bool directed = glm::dot(way, way) > 0;
+    light.edge_v = glm::vec3(directed ? glm::normalize(way) : punctual.direction);
+    if (directed || punctual.kind == PunctualLight::Kind::kPoint) {
+        light.radiance = punctual.intensity;
+        light.mean_luminance = luminance(punctual.intensity);
+    }
     if (punctual.kind == PunctualLight::Kind::kSpot) {
         const double inner = std::cos(punctual.inner_cone);
         const double outer = std::cos(punctual.outer_cone);
@@ -88,7 +93,7 @@ bool is_sampled(const Scene& scene, const Object& object)
     const bool holes = material.alpha_mode != AlphaMode::kOpaque;
     const bool textured =
         material.emission_texture.used() || (holes && material.albedo_texture.used());
-    if (std::holds_alternative<Sphere>(object.shape))
+    if (std::holds_alternative<Sphere>(object.shape) || std::holds_alternative<Disk>(object.shape))
         return !textured;
     const auto* instance = std::get_if<MeshInstance>(&object.shape);
     return instance == nullptr || !holes || scene.meshes[instance->mesh].colors.empty();

@@ -30,7 +30,8 @@ Light light_of(const Sphere& sphere);
 Light light_of(const Disk& disk);
 Light light_of_quad(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v);
 Light light_of_triangle(const glm::vec3& p0, const glm::vec3& edge_u, const glm::vec3& edge_v);
-/// With its intensity; `world_from_node` where it hangs on a node, else the identity.
+/// With its strength; `world_from_node` where it hangs on a node, else the identity. Where a node
+/// leaves it no direction, a light that needs one keeps that of its rest and goes out.
 Light light_of(const PunctualLight& light, const glm::dmat4& world_from_node);
 
 /// Luminance of linear Rec. 709 RGB.

@@ -1,6 +1,7 @@
 // Tracks first (they may switch something off for good), then materials, then what surrounds all.
 #include "server/scene/neutral.h"
 
+#include "server/scene/material_response.h"
 #include "server/scene/texture_mips.h"
 
 #include <algorithm>
@@ -9,11 +10,6 @@
 
 namespace farlight {
 namespace {
-
-bool is_black(const glm::vec3& v)
-{
-    return !(v.x > 0 || v.y > 0 || v.z > 0);
-}
 
 // ---------------------------------------------------------------- tracks
 

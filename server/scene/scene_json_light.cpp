@@ -2,6 +2,7 @@
 #include "server/scene/scene_json_light.h"
 
 #include "server/scene/scene_json_values.h"
+#include "server/scene/spot_cone.h"
 
 namespace farlight {
 
@@ -49,6 +50,9 @@ void read_lights(const Json& document, const ScenePlace& root, SceneMotion& moti
         const ScenePlace place = root / "lights" / name;
         PunctualLight light = read_light(value, place);
         light.name = name;
+        if (light.kind == PunctualLight::Kind::kSpot && clamp_cones(light))
+            scene.notes.push_back("spot light " + Json(name).dump()
+                + ": its cones made wide enough to have a soft edge");
         const Carrier carrier = motion.carrier_of({"light", name}, value, light.position, place);
         light.node = carrier.node;
         light.position -= carrier.origin;

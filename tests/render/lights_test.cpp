@@ -2,6 +2,7 @@
 //
 // Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
 // which a fresh seed would exceed by chance once in 1.7 million.
+#include "server/scene/packed_scene.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/statistics.h"
 
@@ -259,6 +260,9 @@ TEST_P(PatternTest, LightAndBsdfSamplingAgreeOnAQuadAndOnAMesh)
             s.meshes[0].uvs[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
             place_light(s, MeshInstance{});
         }));
+        const PackedScene packed = pack_scene(scene.scene);
+        for (const Light& light : packed.lights->all())
+            EXPECT_GT(light.pmf, 0) << (mesh ? "mesh" : "quad");
         const double expected = 0.5 / pi * GetParam().expected;
         for (const bool light_sampling : {true, false}) {
             RenderSettings s;
@@ -276,6 +280,29 @@ TEST_P(PatternTest, LightAndBsdfSamplingAgreeOnAQuadAndOnAMesh)
 
 // Lambert 1760: of the quad's left half, 0.5 by 1 at height 1, seen from under its corner.
 constexpr double kLeftHalf = 0.2833226;
+
+/// A disc shows one texel all over, that of its picture's corner.
+TEST_F(GlTest, LightAndBsdfSamplingAgreeOnATexturedDisk)
+{
+    const TestScene scene(plane_under([](Scene& s) {
+        s.images.push_back(half({128, 128, 128, 255}, {255, 255, 255, 255}));
+        s.materials[1].emission_texture.image = 0;
+        s.materials[1].emission_texture.wrap_u = Wrap::kClamp;
+        place_light(s, Disk{{0, 2, 0}, {0, -1, 0}, 1});
+        s.lights.push_back({.intensity = glm::vec3(1), .position = {0, 3, 0}});
+    }));
+    // pi r^2 / (r^2 + h^2) times 128 of sRGB; the point light is behind the disc.
+    const double expected = 0.5 / pi * pi / 5 * 0.2158605;
+    for (const bool light_sampling : {true, false}) {
+        RenderSettings s;
+        s.max_depth = 2;
+        s.light_sampling = light_sampling;
+        s.samples_per_pixel = 64;
+        const Estimate estimate = mean_radiance(scene, s, 8);
+        EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 2e-4 * expected)
+            << (light_sampling ? "with" : "without") << " light sampling";
+    }
+}
 
 INSTANTIATE_TEST_SUITE_P(Lights, PatternTest,
     testing::Values(PatternCase{"TexturedEmission", kLeftHalf,

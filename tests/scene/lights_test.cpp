@@ -108,11 +108,7 @@ TEST(PunctualLights, HaveTheFluxOfTheirFalloff)
 {
     PunctualLight light;
     light.intensity = glm::vec3(3);
-    const auto power = [&] {
-        Light packed = light_of(light, glm::dmat4(1));
-        packed.mean_luminance = luminance(light.intensity);
-        return light_power(packed, 5);
-    };
+    const auto power = [&] { return light_power(light_of(light, glm::dmat4(1)), 5); };
     EXPECT_NEAR(power(), 4 * pi * 3, 1e-4);
     light.kind = PunctualLight::Kind::kDirectional;
     EXPECT_NEAR(power(), 3 * pi * 25, 1e-3);
@@ -168,18 +164,52 @@ TEST(TexturedLights, HaveTheMeanPowerOfTheirTexels)
 TEST(TexturedLights, AreNeverChosenWhereTheirTexelsAreBlack)
 {
     Scene scene = textured_strip(0.6F, 0.3F);
-    scene.objects.push_back({"lamp", 1, Disk{}});  // at uv (0, 0), which is white
+    scene.materials.push_back({"plain", glm::vec3(0), glm::vec3(1)});
+    scene.objects.push_back({"lamp", 2, Disk{}});
     const PackedScene packed = pack_scene(scene);
     EXPECT_EQ(packed.lights->all().at(0).pmf, 0);
     EXPECT_EQ(packed.lights->all().at(1).pmf, 1);
 }
 
-TEST(TexturedLights, OnASphereAreLeftToTheBsdf)
+TEST(TexturedLights, OnASphereOrADiskAreLeftToTheBsdf)
 {
     Scene scene = textured_strip(0, 0.3F);
     scene.objects.push_back({"ball", 1, Sphere{}});
+    scene.objects.push_back({"coin", 1, Disk{}});
     EXPECT_TRUE(is_sampled(scene, scene.objects[0]));
     EXPECT_FALSE(is_sampled(scene, scene.objects[1]));
+    EXPECT_FALSE(is_sampled(scene, scene.objects[2]));
+}
+
+/// A picture that shows the light through a comb of one column in four.
+TEST(TexturedLights, OfAMaskHaveThePowerOfWhatIsLeft)
+{
+    Scene scene = scene_with({"light", glm::vec3(0), glm::vec3(1)});
+    Image8 comb{"comb", 8, 1, {}};
+    for (int i = 0; i < 8; ++i)
+        comb.texels.push_back(glm::u8vec4(255, 255, 255, i % 4 == 0 ? 255 : 0));
+    scene.images.push_back(comb);
+    scene.materials[1].alpha_mode = AlphaMode::kMask;
+    scene.materials[1].albedo_texture.image = 0;
+    scene.objects.push_back({"quad", 1, Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}});
+    EXPECT_NEAR(pack_scene(scene).lights->all().at(0).mean_luminance, 0.25, 1e-6);
+}
+
+TEST(Lights, LieWhereARestingCarrierHasThem)
+{
+    Scene scene = scene_with({"light", glm::vec3(0), glm::vec3(1)});
+    scene.animation.nodes.push_back({"carrier"});
+    scene.animation.nodes[0].translation = {1, 2, 3};
+    scene.animation.nodes[0].scale = glm::dvec3(2);
+    scene.objects.push_back({"coin", 1, Disk{}});
+    scene.objects.push_back({"ball", 1, Sphere{}});
+    for (Object& object : scene.objects)
+        object.node = 0;
+    const PackedScene packed = pack_scene(scene);
+    for (const Light& light : packed.lights->all()) {
+        EXPECT_EQ(light.p0, glm::vec3(1, 2, 3));
+        EXPECT_EQ(light.edge_u.x, 2);
+    }
 }
 
 EnvironmentMap random_map(std::uint32_t width, std::uint32_t height)
@@ -316,6 +346,48 @@ INSTANTIATE_TEST_SUITE_P(Lights, LightTreeTest,
         TreeCase{
             "Grid", 4096, [](std::size_t i) { return glm::vec3(i % 16, i / 16 % 16, i / 256); }}),
     [](const auto& test) { return test.param.name; });
+
+/// What has collapsed is never chosen, wherever it stands in the order, and darkens nothing else.
+TEST(LightTrees, GoOnWithCollapsedLights)
+{
+    for (std::size_t place = 0; place < 4; ++place) {
+        Scene scene = scene_with({"light", glm::vec3(0), glm::vec3(1)});
+        scene.animation.nodes.push_back({"carrier"});
+        for (std::size_t i = 0; i < 4; ++i) {
+            const auto x = static_cast<double>(i);
+            scene.objects.push_back({"quad", 1, Quad{{x, 0, 0}, {0.1, 0, 0}, {0, 0, 0.1}}});
+            scene.lights.push_back({.name = "spot",
+                .kind = PunctualLight::Kind::kSpot,
+                .position = {x, 1, 0},
+                .node = i == place ? 0 : kNone});
+        }
+        scene.lights.push_back(
+            {.name = "sun", .kind = PunctualLight::Kind::kDirectional, .node = 0});
+        LightTable table = *pack_scene(scene).lights;
+        std::vector<Light> shapes(table.all().begin(), table.all().begin() + 4);
+        shapes[place].edge_u = shapes[place].edge_v = glm::vec3(0);
+        shapes[place].area = 0;
+        const glm::dmat4 nodes[] = {glm::dmat4(0)};
+        table.update(shapes, {.world_from_node = nodes});
+        for (std::size_t i = 0; i < table.count(); ++i) {
+            const bool collapsed = i % 4 == place || i == 8;
+            EXPECT_EQ(table.all()[i].power > 0, !collapsed) << i << ", " << place << " collapsed";
+        }
+        ASSERT_FALSE(table.tree().empty());
+        EXPECT_EQ(glm::uintBitsToFloat(table.tree()[0].z), 1) << "the sun has gone out";
+        for (std::uint32_t node = 0; node < table.tree()[0].x; ++node) {
+            const std::size_t at = LIGHT_TREE_HEADER_TEXELS + node * LIGHT_NODE_TEXELS;
+            const glm::vec4 box = glm::uintBitsToFloat(table.tree()[at]);
+            const glm::vec4 cone = glm::uintBitsToFloat(table.tree()[at + 1]);
+            EXPECT_TRUE(std::isfinite(glm::dot(box, box)));
+            EXPECT_NEAR(glm::length(glm::vec3(cone)), 1, 1e-6);
+            EXPECT_LE(std::abs(cone.w), 1);
+        }
+        const float lit = 3 * 0.01F + 3;  // quads of radiance 1 and area 0.01, spots of 1 cd
+        EXPECT_NEAR(
+            glm::uintBitsToFloat(table.tree()[LIGHT_TREE_HEADER_TEXELS + 2].x), lit, 1e-6 * lit);
+    }
+}
 
 /// Joining lights loses nothing: the root shines wherever a light does.
 TEST(LightTrees, BoundTheirLights)

@@ -216,6 +216,28 @@ TEST(SceneJson, LightsFogAndLensKeepTheirNumbers)
     EXPECT_EQ(scene.lights[2].direction, glm::dvec3(1, 0, 0));
 }
 
+/// However narrow the cones are, they have an edge that a number can hold.
+TEST(SceneJson, SpotsHaveASoftEdge)
+{
+    for (const char* cones : {R"("outer_cone_degrees": 1e-7)", R"("outer_cone_degrees": 1e-300)",
+             R"("inner_cone_degrees": 44.9999999999999, "outer_cone_degrees": 45)"}) {
+        const Scene scene = parse_scene(std::string(R"({"version": 1, "materials": {"m": {}},
+            "objects": [{"material": "m", "sphere": {"center": [0, 0, 0], "radius": 1}}],
+            "lights": {"lamp": {"intensity": [1, 1, 1], "spot": {"position": [0, 4, 0],
+                "direction": [0, -1, 0], )")
+                + cones + "}}}}",
+            ".", "test.json");
+        ASSERT_EQ(scene.lights.size(), 1U);
+        const PunctualLight& light = scene.lights[0];
+        EXPECT_LT(light.inner_cone, light.outer_cone) << cones;
+        EXPECT_GT(static_cast<float>(std::cos(light.inner_cone)),
+            static_cast<float>(std::cos(light.outer_cone)))
+            << cones;
+        EXPECT_THAT(scene.notes, testing::Contains(testing::HasSubstr("its cones made wide")))
+            << cones;
+    }
+}
+
 TEST(SceneJson, AnEnvironmentIsTurnedAndScaled)
 {
     const Scene scene = parse_scene(R"({"version": 1, "materials": {"m": {}},
