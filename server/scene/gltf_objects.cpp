@@ -15,16 +15,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The determinant's sign; 0 where a float cannot tell the matrix from one without inverse.
-int handedness(const glm::dmat4& matrix)
+/// False where a float cannot tell the matrix from one without inverse.
+bool keeps_volume(const glm::dmat4& matrix)
 {
     const glm::dmat3 linear(matrix);
     const double volume = glm::determinant(linear);
     const double least = std::numeric_limits<float>::epsilon() * glm::length(linear[0])
         * glm::length(linear[1]) * glm::length(linear[2]);
-    if (!(std::abs(volume) > least))
-        return 0;
-    return volume < 0 ? -1 : 1;
+    return std::abs(volume) > least;
 }
 
 std::uint32_t joints_of(const Mesh& mesh)
@@ -56,7 +54,7 @@ void GltfObjects::add(const GltfNode& node)
         name = gltf_.list("meshes")[mesh].value("name", "");
     if (name.empty())
         name = "node " + std::to_string(node.index);
-    std::vector<Part>& parts = parts_of(mesh);
+    const std::vector<Part>& parts = parts_of(mesh);
     for (std::size_t i = 0; i < parts.size(); ++i) {
         std::optional<MeshInstance> instance = placed(node, parts[i]);
         if (!instance)
@@ -71,7 +69,7 @@ void GltfObjects::add(const GltfNode& node)
     }
 }
 
-std::optional<MeshInstance> GltfObjects::placed(const GltfNode& node, Part& part)
+std::optional<MeshInstance> GltfObjects::placed(const GltfNode& node, const Part& part)
 {
     MeshInstance instance{part.mesh, glm::dmat4(1)};
     if (gltf_.list("nodes")[node.index].contains("skin")) {
@@ -79,25 +77,13 @@ std::optional<MeshInstance> GltfObjects::placed(const GltfNode& node, Part& part
         return instance;
     }
     instance.world_from_object = node.carrier_from_node;
-    int hand = handedness(node.world_from_node);
-    if (hand == 0 && node.carrier != kNone)  // an animation may unfold it
-        hand = handedness(node.carrier_from_node);
-    if (hand == 0) {
+    const bool may_unfold =  // by an animation
+        node.carrier != kNone && keeps_volume(node.carrier_from_node);
+    if (!keeps_volume(node.world_from_node) && !may_unfold) {
         ++flat_instances_;
         return std::nullopt;
     }
-    if (hand < 0)
-        instance.mesh = mirrored(part);
     return instance;
-}
-
-std::uint32_t GltfObjects::mirrored(Part& part)
-{
-    if (!part.mirrored_mesh) {
-        part.mirrored_mesh = static_cast<std::uint32_t>(scene_.meshes.size());
-        scene_.meshes.push_back(rewound(scene_.meshes[part.mesh]));
-    }
-    return *part.mirrored_mesh;
 }
 
 void GltfObjects::attach_skin(const GltfNode& node, const Part& part, MeshInstance& instance)
@@ -136,7 +122,7 @@ std::vector<float> GltfObjects::weights_of(
     return weights;
 }
 
-std::vector<GltfObjects::Part>& GltfObjects::parts_of(std::size_t mesh)
+const std::vector<GltfObjects::Part>& GltfObjects::parts_of(std::size_t mesh)
 {
     const auto [entry, is_new] = parts_.try_emplace(mesh);
     if (!is_new)
@@ -162,8 +148,7 @@ GltfObjects::Part GltfObjects::read_part(
     if (const Texture* normals = normal_map(scene_.materials[material]);
         normals != nullptr && read.tangents.empty())
         add_tangents(read, normals->uv_set);
-    const Part part{
-        static_cast<std::uint32_t>(scene_.meshes.size()), {}, material, joints_of(read)};
+    const Part part{static_cast<std::uint32_t>(scene_.meshes.size()), material, joints_of(read)};
     scene_.meshes.push_back(std::move(read));
     return part;
 }

@@ -21,19 +21,16 @@ public:
     void add_notes() const;
 
 private:
-    /// A primitive as instances need it: its mesh, and the mesh with the other winding for
-    /// instances that mirror, made when one is met.
+    /// A primitive as instances need it.
     struct Part {
         std::uint32_t mesh;
-        std::optional<std::uint32_t> mirrored_mesh;
         std::uint32_t material;
         std::uint32_t joints = 0;  // one more than the largest that counts
     };
 
-    std::vector<Part>& parts_of(std::size_t mesh);
+    const std::vector<Part>& parts_of(std::size_t mesh);
     Part read_part(const nlohmann::json& mesh, std::size_t primitive, const ScenePlace& place);
-    std::optional<MeshInstance> placed(const GltfNode& node, Part& part);
-    std::uint32_t mirrored(Part& part);
+    std::optional<MeshInstance> placed(const GltfNode& node, const Part& part);
     void attach_skin(const GltfNode& node, const Part& part, MeshInstance& instance);
     std::vector<float> weights_of(
         const nlohmann::json& node, const MeshInstance& instance, std::size_t node_index) const;

@@ -224,14 +224,4 @@ Mesh unit_cube()
     return cube;
 }
 
-Mesh rewound(const Mesh& mesh)
-{
-    Mesh turned = mesh;
-    for (glm::uvec3& triangle : turned.triangles)
-        std::swap(triangle.y, triangle.z);
-    for (glm::vec4& tangent : turned.tangents)
-        tangent.w = -tangent.w;  // normal x tangent turns about with a mirror
-    return turned;
-}
-
 }  // namespace farlight

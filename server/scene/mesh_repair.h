@@ -39,8 +39,4 @@ MeshRepairs repair_mesh(Mesh& mesh);
 /// A cube from -0.5 to 0.5 on each axis, faces flat and outward.
 Mesh unit_cube();
 
-/// The mesh with each triangle's winding turned about: for instances that mirror, so that triangles
-/// stay counter-clockwise seen from outside in world space, and each tangent's sign.
-Mesh rewound(const Mesh& mesh);
-
 }  // namespace farlight

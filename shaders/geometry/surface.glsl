@@ -46,7 +46,7 @@ vec3 interpolated_position(vec3 weights, vec3 v0, vec3 v1, vec3 v2)
 }
 
 #ifdef FX_TRIANGLES
-void triangle_surface(Hit hit, inout Surface s)
+void triangle_surface(Hit hit, Ray ray, inout Surface s)
 {
     const int place = int(hit.slot & BVH_FIRST_MASK);
     const uvec4 a = texelFetch(triangles, place * TRIANGLE_TEXELS);
@@ -60,7 +60,9 @@ void triangle_surface(Hit hit, inout Surface s)
     s.material = b.w;
     s.light = c.w;
     s.position = interpolated_position(weights, v0, v1, v2);
-    s.geometric_normal = normalize(cross(v1 - v0, v2 - v0));
+    // A sliver is met although single precision finds no area: it faces whoever looks.
+    precise const vec3 across = cross(v1 - v0, v2 - v0);
+    s.geometric_normal = normalize(dot(across, across) > 0.0 ? across : -ray.direction);
     s.extent = max(abs(v0), max(abs(v1), abs(v2)));
     s.shading_normal = s.geometric_normal;
 #ifdef FX_SHADING_NORMALS
@@ -230,7 +232,7 @@ Surface surface_at(Hit hit, Ray ray)
     s.color = vec4(1.0);
 #endif
 #ifdef FX_TRIANGLES
-    triangle_surface(hit, s);
+    triangle_surface(hit, local_ray, s);
 #endif
 #ifdef FX_SPHERES
     if ((hit.slot & BVH_KIND_MASK) == BVH_SPHERES)

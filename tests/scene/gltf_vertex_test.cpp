@@ -1,4 +1,5 @@
 // Vertex attributes besides positions: texture coordinates, colours, tangents.
+#include "server/scene/pack_geometry.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/png.h"
@@ -165,11 +166,18 @@ TEST_F(GltfVertexTest, MirroredInstancesTurnTheSign)
     attributes_["TEXCOORD_0"] = gltf_.add<float>(kSquareUvs, "VEC2");
     add_normal_map();
     load();
-    gltf_.document["nodes"][0]["scale"] = {-1, 1, 1};
-    gltf_.write_glb(folder_.path() / "test.glb");
-    const Scene scene = load_scene(folder_.path() / "test.glb");
-    const auto& instance = std::get<MeshInstance>(scene.objects.at(0).shape);
-    EXPECT_THAT(scene.meshes.at(instance.mesh).tangents, Each(glm::vec4(1, 0, 0, -1)));
+    const auto packed_signs = [&](int x_scale) {
+        gltf_.document["nodes"][0]["scale"] = {x_scale, 1, 1};
+        gltf_.write_glb(folder_.path() / "test.glb");
+        const Scene scene = load_scene(folder_.path() / "test.glb");
+        const FlatScene flat = flatten(scene);
+        GeometryPacker packer(scene, flat, {.tangents = true});
+        packer.pack(flat.groups[0], std::vector<std::uint32_t>{0, 1});
+        const Texels& tangents = packer.packed().tangents;
+        return std::vector<std::uint32_t>{tangents.at(0).w, tangents.at(1).w};
+    };
+    EXPECT_THAT(packed_signs(1), ElementsAre(0, 0));
+    EXPECT_THAT(packed_signs(-1), ElementsAre(7, 7));  // each corner's bit: -1
 }
 
 }  // namespace
