@@ -119,6 +119,8 @@ struct Lookup {
     bool nearest;  // one texel of level 0
 };
 
+int last_level(TextureRef t) { return findMSB(max(t.size.x, t.size.y)); }
+
 Lookup lookup(TextureRef t, vec2 uv, float lod_uv)
 {
     const vec2 at = t.column_u * uv.x + t.column_v * uv.y + t.offset;
@@ -126,10 +128,9 @@ Lookup lookup(TextureRef t, vec2 uv, float lod_uv)
     const float texels
         = float(t.size.x) * float(t.size.y) * abs(t.column_u.x * t.column_v.y - t.column_u.y * t.column_v.x);
     const float lod = lod_uv + 0.5 * log2(texels);
-    const float last = float(findMSB(max(t.size.x, t.size.y)));
     Lookup l;
     l.at = wrap_coordinate(t, at);
-    l.lod = lod > 0.0 ? min(lod, last) : 0.0;
+    l.lod = lod > 0.0 ? min(lod, float(last_level(t))) : 0.0;
     l.nearest = t.nearest && l.lod == 0.0;
     return l;
 }
@@ -173,11 +174,15 @@ vec4 texture_filtered(TextureRef t, vec2 uv, float lod_uv)
     return t.used ? value : vec4(1.0);
 }
 
+// One of the two levels around `lod`, the finer with the probability of its weight. Close to 1, u rounds the sum up to
+// the next whole number: on the last level, to one that does not exist.
+int random_level(TextureRef t, float lod, float u) { return min(int(lod + u), last_level(t)); }
+
 // One texel, chosen with the weights of the trilinear filter by uniform `u`: its mean is texture_filtered().
 vec4 texture_stochastic(TextureRef t, vec2 uv, float lod_uv, vec3 u)
 {
     const Lookup l = lookup(t, uv, lod_uv);
-    const int level = int(l.lod + u.z);
+    const int level = random_level(t, l.lod, u.z);
     const vec4 value = jittered_texel(t, l.at, level, l.nearest ? vec2(0.5) : u.xy);
     return t.used ? value : vec4(1.0);
 }

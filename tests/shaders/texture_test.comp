@@ -60,6 +60,17 @@ void test_level()
     EXPECT_NEAR(cone_lod(2.0, 0.01, 0.5), log2(4.0 * 0.02), 1e-5);
 }
 
+// The largest number below 1 must not lead beyond the single texel of the last level.
+void test_random_level()
+{
+    const TextureRef t = plain(TEXTURE_REPEAT, ivec2(64, 16));
+    const float largest = uintBitsToFloat(0x3f7fffffu);
+    EXPECT_EQ(random_level(t, 6.0, largest), 6);
+    EXPECT_EQ(random_level(t, 5.5, largest), 6);
+    EXPECT_EQ(random_level(t, 5.5, 0.25), 5);
+    EXPECT_EQ(random_level(plain(TEXTURE_REPEAT, ivec2(1)), 0.0, largest), 0);
+}
+
 void test_transform()
 {
     TextureRef t = plain(TEXTURE_CLAMP, ivec2(4));
@@ -84,6 +95,7 @@ void main()
     test_wrap_coordinate();
     test_wrap_texel();
     test_level();
+    test_random_level();
     test_transform();
     test_no_texture();
 }
