@@ -20,12 +20,14 @@ struct Signals {
     TextureHandle scattered;  ///< On the way to the surface; only in fog.
 };
 
-/// Most path segments a pixel that one dispatch traces. llvmpipe ends all loops of an invocation,
+/// Path segments a pixel that one dispatch traces: as many samples as fit, at least one, whose
+/// paths are never split. llvmpipe ends all loops of an invocation,
 /// without a word, after 65535 rounds together: this leaves 256 rounds for the rays of a segment,
 /// four times what a million triangles take. On hardware it keeps a dispatch clear of the driver's
 /// watchdog.
 constexpr int kSegmentsPerDispatch = 256;
-/// Where surfaces have holes every one on a ray's way takes some rounds: this leaves 2048.
+/// Where surfaces have holes every one on a ray's way takes some rounds: this leaves 2048. A single
+/// sample may have up to 128 segments, two paths of 64 in fog: the longest there are get 512.
 constexpr int kSegmentsThroughHoles = 32;
 
 /// Follows from the scene, not from the program: sums in another order are other bits.
