@@ -69,6 +69,12 @@ private:
         return static_cast<float>(kept(owner.value(key, fallback), 0, most));
     }
 
+    /// Farther from 1 than this, the other axes do not count any more.
+    float normal_scale(const Json& texture)
+    {
+        return static_cast<float>(kept(texture.value("scale", 1.0), -1000, 1000));
+    }
+
     glm::vec3 color(const Json& owner, const char* key, double fallback, double scale, double most)
     {
         glm::dvec3 color(fallback);
@@ -116,9 +122,7 @@ void MaterialReader::read_surface()
 {
     material_.normal_texture = textures_.read(json_, "normalTexture", place_);
     if (material_.normal_texture.used())
-        // Farther from 1 than this, the other axes do not count any more.
-        material_.normal_scale =
-            static_cast<float>(kept(json_["normalTexture"].value("scale", 1.0), -1000, 1000));
+        material_.normal_scale = normal_scale(json_["normalTexture"]);
     const std::string mode = json_.value("alphaMode", "OPAQUE");
     material_.alpha_mode = mode == "MASK" ? AlphaMode::kMask
         : mode == "BLEND"                 ? AlphaMode::kBlend
@@ -182,6 +186,8 @@ void MaterialReader::read_clearcoat(const Json& clearcoat, const ScenePlace& pla
     material_.clearcoat_roughness_texture =
         textures_.read(clearcoat, "clearcoatRoughnessTexture", place);
     material_.clearcoat_normal_texture = textures_.read(clearcoat, "clearcoatNormalTexture", place);
+    if (material_.clearcoat_normal_texture.used())
+        material_.clearcoat_normal_scale = normal_scale(clearcoat["clearcoatNormalTexture"]);
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ void pack(const Material& m, const TextureLayout& textures, glm::uvec4* texels)
     texels[MATERIAL_INSIDE] = texel(m.absorption, static_cast<std::uint32_t>(m.priority));
     texels[MATERIAL_COAT] = glm::floatBitsToUint(
         glm::vec4(m.clearcoat, m.clearcoat_roughness, m.normal_scale, m.alpha_cutoff));
+    texels[MATERIAL_COAT_NORMAL] = {bits(m.clearcoat_normal_scale), 0, 0, 0};
     // each_texture() visits them in the order of MAP_*.
     std::uint32_t map = 0;
     each_texture(m, [&](const Texture& texture, TexelSpace space) {

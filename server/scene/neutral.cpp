@@ -218,7 +218,7 @@ private:
     {
         fold_channel(m.clearcoat_texture, m.clearcoat, 0);
         fold_channel(m.clearcoat_roughness_texture, m.clearcoat_roughness, 1);
-        drop_flat(m.clearcoat_normal_texture, 1);
+        drop_flat(m.clearcoat_normal_texture, m.clearcoat_normal_scale);
         if (m.clearcoat > 0)
             return;
         m.clearcoat_roughness = 0;

@@ -105,6 +105,7 @@ struct Material {
     Texture clearcoat_texture;  ///< Linear, R.
     Texture clearcoat_roughness_texture;  ///< Linear, G.
     Texture clearcoat_normal_texture;  ///< Linear, tangent space.
+    float clearcoat_normal_scale = 1;
 
     bool unlit =
         false;  ///< KHR_materials_unlit: shows `albedo` as if it were emission, reflects nothing.

@@ -99,6 +99,7 @@ Material SceneMaterials::read_material(const Json& value, const ScenePlace& plac
     material.priority = value.value("priority", 0);
     read_number(value, "clearcoat", material.clearcoat);
     read_number(value, "clearcoat_roughness", material.clearcoat_roughness);
+    read_number(value, "clearcoat_normal_scale", material.clearcoat_normal_scale);
     material.unlit = value.value("unlit", false);
     using Slot = std::pair<const char*, Texture*>;
     for (const auto& [key, texture] : {Slot{"albedo_texture", &material.albedo_texture},

@@ -47,8 +47,8 @@ vec4 look_up(Surface s, int map, TextureLookup l)
     return texture_filtered(t, uv, lod);
 }
 
-// One texture's part. Only what is compiled reaches the material.
-void apply_map(inout MaterialDraft d, int map, vec4 texel, float normal_scale)
+// One texture's part; `normal_scales`: of the base and of the coat. Only what is compiled reaches the material.
+void apply_map(inout MaterialDraft d, int map, vec4 texel, vec2 normal_scales)
 {
     d.albedo *= map == MAP_ALBEDO ? texel.rgb : vec3(1.0);
     d.emission *= map == MAP_EMISSION ? texel.rgb : vec3(1.0);
@@ -60,19 +60,19 @@ void apply_map(inout MaterialDraft d, int map, vec4 texel, float normal_scale)
     d.clearcoat *= map == MAP_CLEARCOAT ? texel.r : 1.0;
     d.clearcoat_roughness *= map == MAP_CLEARCOAT_ROUGHNESS ? texel.g : 1.0;
 #ifdef FX_NORMAL_MAPS
-    d.normal = map == MAP_NORMAL ? decoded_normal(texel.rgb, normal_scale) : d.normal;
-    d.clearcoat_normal = map == MAP_CLEARCOAT_NORMAL ? decoded_normal(texel.rgb, 1.0) : d.clearcoat_normal;
+    d.normal = map == MAP_NORMAL ? decoded_normal(texel.rgb, normal_scales.x) : d.normal;
+    d.clearcoat_normal = map == MAP_CLEARCOAT_NORMAL ? decoded_normal(texel.rgb, normal_scales.y) : d.clearcoat_normal;
 #endif
 }
 
 // A loop over the textures that the material has, which on most is none.
-void apply_maps(inout MaterialDraft d, Surface s, TextureLookup lookup, float normal_scale)
+void apply_maps(inout MaterialDraft d, Surface s, TextureLookup lookup, vec2 normal_scales)
 {
     uint left = d.flags >> MATERIAL_MAP_SHIFT;
     while (left != 0u) {
         const int map = findLSB(left);
         left &= left - 1u;
-        apply_map(d, map, look_up(s, map, lookup), normal_scale);
+        apply_map(d, map, look_up(s, map, lookup), normal_scales);
     }
 }
 #endif
@@ -106,7 +106,7 @@ MaterialDraft drafted(Surface s, TextureLookup lookup)
     d.albedo *= s.color.rgb;
 #endif
 #ifdef FX_TEXTURES
-    apply_maps(d, s, lookup, coat.z);
+    apply_maps(d, s, lookup, vec2(coat.z, material_texel(s.material, MATERIAL_COAT_NORMAL).x));
 #endif
     return d;
 }

@@ -79,7 +79,7 @@
 #define INSTANCE_SCALE 7              // log2 of its scale; -1 if it mirrors, else 1
 
 // Texels of a material.
-#define MATERIAL_TEXELS (6 + MATERIAL_MAPS * TEXTURE_TEXELS)
+#define MATERIAL_TEXELS (7 + MATERIAL_MAPS * TEXTURE_TEXELS)
 #define MATERIAL_ALBEDO 0    // albedo.rgb; MATERIAL_* flags
 #define MATERIAL_EMISSION 1  // emission.rgb; opacity
 #define MATERIAL_BASE 2      // metallic; roughness, perceptual; specular; ior
@@ -87,7 +87,8 @@
 #define MATERIAL_INSIDE 4    // absorption.rgb; priority, as a signed integer
 #define MATERIAL_COAT 5      // clearcoat; clearcoat_roughness; normal_scale; alpha_cutoff
 
-#define MATERIAL_TEXTURES 6  // texture references, in the order of MAP_*
+#define MATERIAL_COAT_NORMAL 6  // clearcoat_normal_scale; 0; 0; 0
+#define MATERIAL_TEXTURES 7  // texture references, in the order of MAP_*
 
 // A material's textures. Bit MATERIAL_MAP_SHIFT + MAP_* of the flags is set for each that there is.
 #define MATERIAL_MAPS 10

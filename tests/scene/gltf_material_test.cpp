@@ -158,6 +158,18 @@ TEST_F(GltfMaterialTest, EveryTextureLandsInItsPlace)
     }
 }
 
+TEST_F(GltfMaterialTest, ACoatsNormalMapHasAScaleOfItsOwn)
+{
+    const Json textures = {{"normalTexture", {{"index", 0}, {"scale", 0.5}}},
+        {"extensions",
+            {{"KHR_materials_clearcoat",
+                {{"clearcoatFactor", 1},
+                    {"clearcoatNormalTexture", {{"index", 0}, {"scale", -3}}}}}}}};
+    const Material coated = material(textures);
+    EXPECT_EQ(coated.normal_scale, 0.5F);
+    EXPECT_EQ(coated.clearcoat_normal_scale, -3);
+}
+
 TEST_F(GltfMaterialTest, SamplersUvSetsAndTransforms)
 {
     GltfBuilder gltf = with_material({{"normalTexture", {{"index", 1}, {"scale", 0.5}}},

@@ -73,8 +73,9 @@ INSTANTIATE_TEST_SUITE_P(Materials, BadSceneTest,
         BadScene{"UnknownProperty", R"({"materials": {"white": {"texture": {"tint": 1}}}})",
             "/materials/white/texture: found the unknown key \"texture\", expected one of "
             "absorption, albedo, albedo_texture, alpha_cutoff, alpha_mode, clearcoat, "
-            "clearcoat_normal_texture, clearcoat_roughness, clearcoat_roughness_texture, "
-            "clearcoat_texture, emission, emission_texture, emits_both_sides, ior, metallic, "
+            "clearcoat_normal_scale, clearcoat_normal_texture, clearcoat_roughness, "
+            "clearcoat_roughness_texture, clearcoat_texture, emission, emission_texture, "
+            "emits_both_sides, ior, metallic, "
             "metallic_roughness_texture, normal_scale, normal_texture, opacity, priority, "
             "roughness, specular, specular_color, specular_color_texture, specular_texture, "
             "thin_walled, transmission, transmission_texture, unlit"},

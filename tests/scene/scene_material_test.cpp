@@ -68,7 +68,7 @@ TEST_F(SceneMaterialTest, EveryKeyOfTheSchemaReachesTheMaterial)
         EXPECT_THAT(seen, testing::Not(testing::Contains(material))) << key;
         seen.push_back(material);
     }
-    EXPECT_EQ(seen.size(), 30U);  // 29 keys
+    EXPECT_EQ(seen.size(), 31U);  // 30 keys
 }
 
 TEST_F(SceneMaterialTest, NumbersArriveInTheirMembers)
@@ -78,6 +78,7 @@ TEST_F(SceneMaterialTest, NumbersArriveInTheirMembers)
         "roughness": 0.4, "normal_scale": -2, "ior": 1.33, "specular": 0.9,
         "specular_color": [0.5, 2, 0.25], "transmission": 0.8, "thin_walled": true,
         "absorption": [7, 8, 9], "priority": -4, "clearcoat": 0.65, "clearcoat_roughness": 0.05,
+        "clearcoat_normal_scale": 3,
         "unlit": true})"));
     EXPECT_EQ(m.albedo, glm::vec3(0.1F, 0.2F, 0.3F));
     EXPECT_EQ(m.emission, glm::vec3(4, 5, 6));
@@ -96,6 +97,7 @@ TEST_F(SceneMaterialTest, NumbersArriveInTheirMembers)
     EXPECT_EQ(m.priority, -4);
     EXPECT_EQ(m.clearcoat, 0.65F);
     EXPECT_EQ(m.clearcoat_roughness, 0.05F);
+    EXPECT_EQ(m.clearcoat_normal_scale, 3);
     EXPECT_TRUE(m.unlit);
 }
 

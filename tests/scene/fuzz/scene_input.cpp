@@ -103,7 +103,8 @@ private:
         expect(
             finite(glm::vec4(material.opacity, material.metallic, material.roughness, material.ior))
                 && finite(glm::vec4(material.specular, material.transmission, material.clearcoat,
-                    material.normal_scale)),
+                    material.normal_scale))
+                && std::isfinite(material.clearcoat_normal_scale),
             "a material's factors");
     }
 
