@@ -6,6 +6,12 @@
 #include "bsdf/bsdf.glsl"
 #include "bsdf/interior.glsl"
 
+// Width on the surface of a cone as wide as a pixel [m], log2.
+float log2_cone_width(float width, vec3 normal, vec3 direction)
+{
+    return log2(width / abs(dot(normal, direction)));
+}
+
 // Textures are filtered in full, because what they say becomes the factor between signals and picture.
 ShadedMaterial first_material(Surface s, Ray ray)
 {
@@ -25,4 +31,7 @@ bool scatters(ShadedMaterial m)
 }
 
 // What the diffuse signals are divided by.
-vec3 diffuse_albedo(ShadedMaterial m) { return scatters(m) ? m.albedo : vec3(0.0); }
+vec3 diffuse_albedo(ShadedMaterial m, Surface s, Ray ray)
+{
+    return scatters(m) ? make_bsdf(m, s.geometric_normal, -ray.direction, opaque_eta(m)).albedo : vec3(0.0);
+}

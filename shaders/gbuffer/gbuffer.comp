@@ -78,7 +78,7 @@ void main()
     imageStore(out_identity, px,
         met ? uvec4(s.object, s.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
     imageStore(out_position, px, met ? vec4(s.position, 0.0) : vec4(0.0));
-    imageStore(out_albedo, px, met ? vec4(diffuse_albedo(m), 1.0) : vec4(0.0));
+    imageStore(out_albedo, px, met ? vec4(diffuse_albedo(m, s, ray), 1.0) : vec4(0.0));
     imageStore(out_emission, px, vec4(met ? m.emission : environment_radiance(ray.direction), 1.0));
     imageStore(out_motion, px, met ? motion_of(s.position, s.prev_position) : vec4(0.0));
 #ifdef FX_SPECULAR_SIGNAL
