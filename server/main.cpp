@@ -75,7 +75,7 @@ void tell(const RendererDescription& description, const Flags& flags)
     spdlog::info("scene: {}: {} triangles, {} lights", description.scene_name,
         description.triangles, description.lights);
     for (const std::string& note : description.scene_notes)
-        spdlog::info("scene: {}", note);
+        spdlog::warn("scene: {}", note);
     for (const ActiveEffect& effect : description.effects)
         spdlog::info("calls for {}: {}", effect.name, effect.reason);
     spdlog::info("size: {}x{}, {}", description.default_extent.width,

@@ -89,6 +89,8 @@ int run(const Options& options)
     const Target target(options.target);
     Session session(
         target.url(), target.hello(protocol::Mode::kLockstep, wire_format(options.format)));
+    for (const std::string& note : session.welcome().scene.notes)
+        say("scene: " + note);
     const auto [pose, frames] = camera_of(options, session.welcome());
 
     nlohmann::json reports = nlohmann::json::array();

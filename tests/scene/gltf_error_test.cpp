@@ -44,6 +44,9 @@ const auto kName = [](const auto& row) { return row.param.name; };
 INSTANTIATE_TEST_SUITE_P(Document, BadGltfTest,
     testing::Values(BadGltf{"OldVersion", "/asset/version", "\"1.0\"",
                         "/asset/version: found \"1.0\", expected a glTF version 2.x"},
+        BadGltf{"NewerNeeded", "/asset/minVersion", "\"2.1\"",
+            "/asset/minVersion: found \"2.1\", expected 2.0, the newest glTF version that is "
+            "read"},
         BadGltf{"NoAsset", "/asset", "",
             "found no key \"asset\", expected a glTF 2.0 object with asset, scenes, nodes, "
             "meshes, ..."},
