@@ -45,7 +45,8 @@ void add_options(CLI::App& app, Flags& flags, Texts& texts)
     app.add_option("--port", flags.stream.port, "port to listen on; 0 picks a free one")
         ->capture_default_str();
     app.add_option("--size", size, "WxH pixels; absent: what moves at 10 frames a second here");
-    app.add_option("--set", settings, "key=value, a setting new clients start with, whatever the scene says; repeatable")
+    app.add_option("--set", settings,
+           "key=value, a setting new clients start with, whatever the scene says; repeatable")
         ->allow_extra_args(false);
     app.add_option("--allow-origin", flags.stream.allowed_origins,
            "also let pages of this origin connect, as https://example.org; repeatable, * for all")

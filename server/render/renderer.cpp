@@ -90,8 +90,8 @@ void Renderer::State::run(std::promise<void> ready)
         view_memory = memory_for_views(options.view_memory, d.software);
         if (!options.extent)
             live.finish_programs();  // what is measured is what will draw
-        d.default_extent = options.extent ? *options.extent
-                                          : start_extent(live.shared(), d.camera, d.settings);
+        d.default_extent =
+            options.extent ? *options.extent : start_extent(live.shared(), d.camera, d.settings);
         publish(std::move(d));
         loader = std::make_unique<GlWorker>(*context);
         ready.set_value();
