@@ -80,6 +80,13 @@ void print_line(const nlohmann::json& frame)
         frame["samples"].get<unsigned>(), frame["nonfinite"].get<unsigned>());
 }
 
+/// What the loader left out or repaired.
+void tell_notes(const protocol::Welcome& welcome)
+{
+    for (const std::string& note : welcome.scene.notes)
+        say("scene: " + note);
+}
+
 int run(const Options& options)
 {
     std::error_code problem;
@@ -89,8 +96,7 @@ int run(const Options& options)
     const Target target(options.target);
     Session session(
         target.url(), target.hello(protocol::Mode::kLockstep, wire_format(options.format)));
-    for (const std::string& note : session.welcome().scene.notes)
-        say("scene: " + note);
+    tell_notes(session.welcome());
     const auto [pose, frames] = camera_of(options, session.welcome());
 
     nlohmann::json reports = nlohmann::json::array();
@@ -99,9 +105,10 @@ int run(const Options& options)
         char name[32];
         std::snprintf(name, sizeof name, "frame_%05d.%s", i, options.format.c_str());
         write_frame(std::filesystem::path(options.out) / name, frame);
-        reports.push_back(report(i, name, frame));
+        const nlohmann::json line = report(i, name, frame);
         if (!options.json)
-            print_line(reports.back());
+            print_line(line);
+        reports.push_back(line);
     }
     if (options.json)
         print_json({{"out", options.out}, {"frames", reports}});
