@@ -32,7 +32,8 @@ class ColdCaches {
 public:
     ColdCaches()
     {
-        std::string name = std::filesystem::temp_directory_path() / "farlight-bench-XXXXXX";
+        std::string name = std::filesystem::temp_directory_path() / "farlight-bench-";
+        name.append(6, 'X');  // for mkdtemp to replace
         if (mkdtemp(name.data()) == nullptr)
             throw std::runtime_error("cannot make the folder " + name);
         folder_ = name;
