@@ -15,7 +15,6 @@ std::uint32_t flags_of(const Material& material)
     flags |= material.unlit ? MATERIAL_UNLIT : 0;
     flags |= material.thin_walled ? MATERIAL_THIN_WALLED : 0;
     flags |= material.alpha_mode == AlphaMode::kMask ? MATERIAL_ALPHA_MASK : 0;
-    flags |= material.alpha_mode == AlphaMode::kBlend ? MATERIAL_ALPHA_BLEND : 0;
     return flags;
 }
 

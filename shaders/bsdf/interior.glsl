@@ -108,7 +108,6 @@ void cross_boundary(inout Interior interior, ShadedMaterial m, uint material, bo
 void see_through(inout ShadedMaterial m)
 {
     m.albedo = vec3(1.0);
-    m.emission = vec3(0.0);
     m.metallic = 0.0;
     m.alpha = 0.0;
     m.specular = 0.0;

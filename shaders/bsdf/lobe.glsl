@@ -23,7 +23,7 @@ vec3 mirrored(vec3 wo) { return vec3(-wo.xy, wo.z); }
 // A cosine of the viewer that is not below the resolution of unit vectors, so that nothing is divided by zero.
 vec3 above_horizon(vec3 wo) { return vec3(wo.xy, max(wo.z, 5.9604645e-8)); }
 
-// D G2 / (4 z_o) as value.x, density of visible normals over 4 cos as .y; half vector and its cosine in `h`.
+// D G2 / (4 z_o) as value.x, density of visible normals over 4 cos as .y; `cos_h`: between wo and the half vector.
 vec2 ggx_reflection(vec3 wo, vec3 wi, float alpha, out float cos_h)
 {
     precise const vec3 h = normalize(wo + wi);

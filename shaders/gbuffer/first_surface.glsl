@@ -6,12 +6,6 @@
 #include "bsdf/bsdf.glsl"
 #include "bsdf/interior.glsl"
 
-// Width on the surface of a cone as wide as a pixel [m], log2.
-float log2_cone_width(float width, vec3 normal, vec3 direction)
-{
-    return log2(width / abs(dot(normal, direction)));
-}
-
 // Textures are filtered in full, because what they say becomes the factor between signals and picture.
 ShadedMaterial first_material(Surface s, Ray ray)
 {

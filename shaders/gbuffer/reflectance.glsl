@@ -4,18 +4,12 @@
 //
 // Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", for the angle.
 #pragma once
+#include "bsdf/fresnel.glsl"
 #include "materials/shaded_material.glsl"
 #include "lib/numbers.glsl"
 
 // Below this division would make more noise than the texture it takes out.
 const float LEAST_REFLECTANCE = 0.02;
-
-vec3 schlick(vec3 f0, float cosine)
-{
-    const float x = 1.0 - clamp(cosine, 0.0, 1.0);
-    const float x2 = x * x;
-    return f0 + (1.0 - f0) * (x2 * x2 * x);
-}
 
 // rgb; GGX alpha, negative where nothing is specular. `wo` as in material_at().
 vec4 reflectance(ShadedMaterial m, vec3 wo)
@@ -28,14 +22,15 @@ vec4 reflectance(ShadedMaterial m, vec3 wo)
 #if defined(FX_ROUGH_REFLECTION) || defined(FX_MIRROR) || defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
     const float root = (m.ior - 1.0) / (m.ior + 1.0);
     const vec3 f0 = min(root * root * m.specular_color, vec3(1.0));
-    base = mix(m.specular * schlick(f0, cosine), schlick(m.albedo, cosine), m.metallic);
+    const float rise = schlick_weight(cosine);
+    base = mix(m.specular * (f0 + (1.0 - f0) * rise), m.albedo + (1.0 - m.albedo) * rise, m.metallic);
     alpha = m.alpha;
 #endif
 #if defined(FX_DIELECTRIC) || defined(FX_ROUGH_DIELECTRIC)
     base += (1.0 - m.metallic) * m.transmission * m.albedo;
 #endif
 #ifdef FX_CLEARCOAT
-    coat = m.clearcoat * schlick(vec3(0.04), cosine).x;
+    coat = m.clearcoat * (0.04 + 0.96 * schlick_weight(cosine));
     coat_alpha = m.clearcoat_alpha;
 #endif
     const float part_of_coat = coat / max(coat + max_component(base), LEAST_REFLECTANCE);

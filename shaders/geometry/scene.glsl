@@ -41,17 +41,3 @@ uniform usamplerBuffer prev_vertices;
 
 // A texel of a buffer that may be shorter than others: one that a scene does without has a single texel of zeros.
 uvec4 fetch_attribute(usamplerBuffer source, int at) { return texelFetch(source, min(at, textureSize(source) - 1)); }
-
-struct Material {
-    vec3 albedo;
-    vec3 emission;
-    bool emits_both_sides;
-};
-
-Material load_material(uint index)
-{
-    const uvec4 texel = texelFetch(materials, int(index) * MATERIAL_TEXELS);
-    const uvec4 emission = texelFetch(materials, int(index) * MATERIAL_TEXELS + 1);
-    return Material(uintBitsToFloat(texel.xyz), uintBitsToFloat(emission.xyz),
-        (texel.w & MATERIAL_EMITS_BOTH_SIDES) != 0u);
-}

@@ -9,7 +9,7 @@
 
 #ifdef FX_LIGHTS
 // A light and a point on it for the surface at `position` whose shading normal is `normal` (0 in a medium).
-// u.x chooses the light, the others what there is to choose of it.
+// u.x chooses the light (a tree's descent hashes u.y and u.w as well), the others what there is to choose of it.
 LightSample sample_lights(vec3 position, vec3 normal, vec4 u)
 {
     float pmf;

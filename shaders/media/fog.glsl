@@ -38,7 +38,7 @@ struct FogEvent {
     vec3 weight;     // of the path: scattering * transmittance / density, or transmittance / probability
 };
 
-// A free path within `length`. u.x: channel and distance.
+// A free path within `length`. u.x: distance, u.y: channel.
 FogEvent sample_fog(Fog fog, float length, vec2 u)
 {
     const float channel = u.y * 3.0;

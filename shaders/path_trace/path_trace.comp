@@ -12,7 +12,8 @@
 //        out_scattered   rgba32f   light that the fog before the first surface scatters to the eye
 //
 // Many samples are traced in several dispatches (server/passes/path_trace.h): CONTINUES is defined for all but the
-// first, which find the mean of the samples before theirs in in_direct, in_indirect, in_specular and in_scattered.
+// first, which find the mean of the samples before theirs in in_direct, in_indirect, in_specular and in_scattered, and
+// what these showed in in_shown.
 //
 // Each vertex samples a light and a direction of its BSDF or phase function and combines both by multiple importance
 // sampling. Source: Veach 1997, chapters 8 to 10; Kajiya 1986, "The Rendering Equation".

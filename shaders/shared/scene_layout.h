@@ -1,4 +1,5 @@
-// How the scene lies in its buffer textures: read by server/scene/*.cpp and geometry/*.glsl.
+// How the scene lies in its buffer textures: written by server/scene/*.cpp, read by geometry, materials, bsdf, lights
+// and textures.
 // All are usamplerBuffer of rgba32ui; floats travel as their bits. A buffer that a scene has no use for is not there.
 //
 //   bvh_nodes    BVH_NODE_TEXELS a node: lower x of 4 children, lower y, lower z, upper x, upper y, upper z,
@@ -112,7 +113,6 @@
 #define MATERIAL_UNLIT 2u
 #define MATERIAL_THIN_WALLED 4u
 #define MATERIAL_ALPHA_MASK 8u
-#define MATERIAL_ALPHA_BLEND 16u
 
 // At or below this perceptual roughness a lobe is a mirror. 2^-5, so alpha is 2^-10: the distribution of half vectors
 // known to 3 ulp still has 3 digits (4 * 3 ulp / alpha), and the blur is less than a pixel of a 720 lines high picture.

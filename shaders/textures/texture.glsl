@@ -2,7 +2,7 @@
 // size share the layers of an array, each in its corner.
 //
 // The level of detail comes from ray cones: `lod_uv` is log2 of the cone's footprint on the surface, in units of the
-// mesh's texture coordinates (cone_lod()).
+// mesh's texture coordinates: log2_cone_width() and the surface's log2_uv_per_metre.
 //
 // Sources: Akenine-Möller et al. 2019, "Texture Level of Detail Strategies for Real-Time Ray Tracing", Ray Tracing
 // Gems, chapter 20, section 20.3.4; Akenine-Möller et al. 2021, "Improved Shader and Texture Level of Detail Using Ray
@@ -40,11 +40,10 @@ TextureRef unpack_texture(uvec4 a, uvec4 b)
     return t;
 }
 
-// log2 of the footprint that a cone `width` [m] wide leaves on a surface it meets at an angle of cosine `cos_theta`;
-// `log2_uv_per_metre` is 0.5 * log2(area in texture coordinates / area in the world) of the primitive.
-float cone_lod(float log2_uv_per_metre, float width, float cos_theta)
+// Width on a surface of a cone `width` [m] wide that meets it along `direction`, log2.
+float log2_cone_width(float width, vec3 normal, vec3 direction)
 {
-    return log2_uv_per_metre + log2(width / abs(cos_theta));
+    return log2(width / abs(dot(normal, direction)));
 }
 
 #ifdef FX_TEXTURES

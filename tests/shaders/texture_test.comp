@@ -57,7 +57,8 @@ void test_level()
     finer.column_v *= 2.0;
     EXPECT_NEAR(lookup(finer, vec2(0.0), -5.0).lod, 1.0, 1e-5);
     // A cone 1 cm wide on a metre of 4 repeats, seen at 60 degrees from the normal.
-    EXPECT_NEAR(cone_lod(2.0, 0.01, 0.5), log2(4.0 * 0.02), 1e-5);
+    const vec3 along = vec3(sqrt(0.75), 0.0, -0.5);
+    EXPECT_NEAR(log2_cone_width(0.01, vec3(0.0, 0.0, 1.0), along) + 2.0, log2(4.0 * 0.02), 1e-5);
 }
 
 // The largest number below 1 must not lead beyond the single texel of the last level.
