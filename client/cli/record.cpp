@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <memory>
 
 namespace farlight::client {
@@ -22,19 +23,24 @@ struct Options {
     bool json = false;
 };
 
-using PoseOfFrame = std::function<Pose(int)>;
+/// The camera's way: a pose for each frame, and how many frames there are.
+struct Track {
+    std::function<Pose(int)> pose;
+    int frames;
+};
 
-/// The camera of each frame, and how many there are.
-std::pair<PoseOfFrame, int> camera_of(const Options& options, const protocol::Welcome& welcome)
+Track orbit_of(const Options& options, const protocol::Welcome& welcome)
 {
-    if (options.path.empty()) {
-        const int frames = options.frames > 0 ? options.frames : 1;
-        return {[&options, welcome, frames](int frame) {
-                    return orbit(welcome.camera, middle_of(welcome.scene),
-                        orbit_angle(options.orbit, frame, frames));
-                },
-            frames};
-    }
+    const int frames = options.frames > 0 ? options.frames : 1;
+    return {[welcome, degrees = options.orbit, frames](int frame) {
+                return orbit(
+                    welcome.camera, middle_of(welcome.scene), orbit_angle(degrees, frame, frames));
+            },
+        frames};
+}
+
+Track path_of(const Options& options, const protocol::Welcome& welcome)
+{
     const auto named = welcome.camera_paths.find(options.path);
     const auto keyframes = named != welcome.camera_paths.end() && !named->second.empty()
         ? named->second
@@ -97,11 +103,12 @@ int run(const Options& options)
     Session session(
         target.url(), target.hello(protocol::Mode::kLockstep, wire_format(options.format)));
     tell_notes(session.welcome());
-    const auto [pose, frames] = camera_of(options, session.welcome());
+    const Track track = options.path.empty() ? orbit_of(options, session.welcome())
+                                             : path_of(options, session.welcome());
 
     nlohmann::json reports = nlohmann::json::array();
-    for (int i = 0; i < frames; ++i) {
-        const Frame frame = session.draw(pose(i));
+    for (int i = 0; i < track.frames; ++i) {
+        const Frame frame = session.draw(track.pose(i));
         char name[32];
         std::snprintf(name, sizeof name, "frame_%05d.%s", i, options.format.c_str());
         write_frame(std::filesystem::path(options.out) / name, frame);
