@@ -334,7 +334,7 @@ def write_many_lights(path):
     lines = [json.dumps(o) for o in lamps + posts + [{"name": "floor", "material": "white", "quad": {
         "corner": [-7, 0, 7], "edge_u": [14, 0, 0], "edge_v": [0, 0, -14]}}]]
     path.write_text("""{
-  "$schema": "farlight-scene.schema.json",
+  "$schema": "schema/farlight-scene.schema.json",
   "version": 1,
   "name": "Many lights",
   "description": "144 small lamps, each of which lights its own patch of the floor. Written by tools/make_scene_files.py.",

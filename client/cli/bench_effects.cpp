@@ -224,45 +224,53 @@ double mib(std::uint64_t bytes)
     return static_cast<double>(bytes) / (1U << 20U);
 }
 
-void print_scenes(const std::vector<Row>& rows)
+/// Rows are printed as they come: who stops a long run keeps what is measured.
+void print_scene_heading()
 {
     std::printf("%-20s %9s %9s %6s  %-15s %9s %9s %9s %7s\n", "scene", "general", "its own",
         "ratio", "95 % interval", "general", "its own", "compile", "frames");
     std::printf("%-20s %9s %9s %6s  %-15s %9s %9s %9s %7s\n", "", "[ms]", "[ms]", "", "", "[MiB]",
         "[MiB]", "[ms]", "to pay");
-    for (const Row& row : rows) {
-        const auto frames = row.break_even();
-        std::printf("%-20s %9.2f %9.2f %6.3f  %.3f to %.3f %s%9.1f %9.1f %9.0f %7s\n",
-            row.name.c_str(), median(row.general.ms), median(row.special.ms), row.ratio.ratio,
-            row.ratio.interval.lower, row.ratio.interval.upper, row.too_slow() ? "!" : " ",
-            mib(row.scene_bytes + row.general.view_bytes),
-            mib(row.scene_bytes + row.special.view_bytes), row.compile_ms,
-            frames ? std::to_string(std::lround(*frames)).c_str() : "never");
-    }
 }
 
-void print_leave_one_in(const std::vector<Row>& rows, const std::string& scene)
+void print_scene(const Row& row)
+{
+    const auto frames = row.break_even();
+    std::printf("%-20s %9.2f %9.2f %6.3f  %.3f to %.3f %s%9.1f %9.1f %9.0f %7s\n", row.name.c_str(),
+        median(row.general.ms), median(row.special.ms), row.ratio.ratio, row.ratio.interval.lower,
+        row.ratio.interval.upper, row.too_slow() ? "!" : " ",
+        mib(row.scene_bytes + row.general.view_bytes),
+        mib(row.scene_bytes + row.special.view_bytes), row.compile_ms,
+        frames ? std::to_string(std::lround(*frames)).c_str() : "never");
+    std::fflush(stdout);
+}
+
+void print_leave_one_in_heading(const std::string& scene)
 {
     std::printf("\n%s with one effect more than it calls for\n", scene.c_str());
     std::printf("%-20s %9s %9s %6s  %-15s %9s %9s\n", "effect", "[ms]", "more", "ratio",
         "95 % interval", "more", "compile");
     std::printf("%-20s %9s %9s %6s  %-15s %9s %9s\n", "", "", "[ms]", "", "", "[MiB]", "[ms]");
-    for (const Row& row : rows)
-        std::printf("%-20s %9.2f %9.2f %6.3f  %.3f to %.3f %9.1f %9.0f\n", row.name.c_str(),
-            median(row.special.ms), -row.saved_ms(), row.ratio.ratio, row.ratio.interval.lower,
-            row.ratio.interval.upper, mib(row.special.view_bytes) - mib(row.general.view_bytes),
-            row.compile_ms);
 }
 
-}  // namespace
+void print_left_in(const Row& row)
+{
+    std::printf("%-20s %9.2f %9.2f %6.3f  %.3f to %.3f %9.1f %9.0f\n", row.name.c_str(),
+        median(row.special.ms), -row.saved_ms(), row.ratio.ratio, row.ratio.interval.lower,
+        row.ratio.interval.upper, mib(row.special.view_bytes) - mib(row.general.view_bytes),
+        row.compile_ms);
+    std::fflush(stdout);
+}
 
-int bench_effects(const TargetOptions& options, const EffectsBenchOptions& bench_options)
+std::vector<Row> measure_scenes(
+    const TargetOptions& options, const EffectsBenchOptions& bench_options)
 {
     std::vector<std::string> scenes = bench_options.scenes;
     if (scenes.empty())
         scenes.push_back(options.scene);
     std::vector<Row> rows;
-    std::vector<Row> left_in;
+    if (!bench_options.json)
+        print_scene_heading();
     for (const std::string& scene : scenes) {
         const ColdCaches cold;
         const Target target(options, scene);
@@ -270,13 +278,40 @@ int bench_effects(const TargetOptions& options, const EffectsBenchOptions& bench
         const std::string& name = bench.welcome().scene.name;
         say("effects: " + name);
         rows.push_back(measure(bench, name, "", bench_options.frames));
-        if (!bench_options.leave_one_in || rows.size() > 1)
-            continue;
-        for (const std::string& effect : lacking(bench)) {
-            say(std::string("effects: ").append(name).append(" with ").append(effect));
-            left_in.push_back(measure(bench, effect, effect, bench_options.frames));
-        }
+        if (!bench_options.json)
+            print_scene(rows.back());
     }
+    return rows;
+}
+
+/// The first scene with each of the effects that it lacks.
+std::vector<Row> measure_left_in(
+    const TargetOptions& options, const EffectsBenchOptions& bench_options)
+{
+    const ColdCaches cold;
+    const Target target(
+        options, bench_options.scenes.empty() ? options.scene : bench_options.scenes.front());
+    Bench bench(target);
+    const std::string& name = bench.welcome().scene.name;
+    std::vector<Row> rows;
+    if (!bench_options.json)
+        print_leave_one_in_heading(name);
+    for (const std::string& effect : lacking(bench)) {
+        say(std::string("effects: ").append(name).append(" with ").append(effect));
+        rows.push_back(measure(bench, effect, effect, bench_options.frames));
+        if (!bench_options.json)
+            print_left_in(rows.back());
+    }
+    return rows;
+}
+
+}  // namespace
+
+int bench_effects(const TargetOptions& options, const EffectsBenchOptions& bench_options)
+{
+    const std::vector<Row> rows = measure_scenes(options, bench_options);
+    const std::vector<Row> left_in =
+        bench_options.leave_one_in ? measure_left_in(options, bench_options) : std::vector<Row>();
     if (bench_options.json) {
         nlohmann::json json{{"scenes", nlohmann::json::array()}};
         for (const Row& row : rows)
@@ -284,10 +319,6 @@ int bench_effects(const TargetOptions& options, const EffectsBenchOptions& bench
         for (const Row& row : left_in)
             json["leave_one_in"].push_back(to_json(row));
         print_json(json);
-    } else {
-        print_scenes(rows);
-        if (!left_in.empty())
-            print_leave_one_in(left_in, rows.front().name);
     }
     return std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.too_slow(); })
         ? kFailed

@@ -13,7 +13,7 @@ namespace farlight {
 void check_schema(
     const nlohmann::json& document, std::string_view schema_text, const std::string& file);
 
-/// scenes/farlight-scene.schema.json, embedded at build time.
+/// scenes/schema/farlight-scene.schema.json, embedded at build time.
 std::string_view farlight_scene_schema();
 
 /// server/scene/gltf.schema.json, embedded too: the part of glTF 2.0 that is read.

@@ -1,4 +1,4 @@
-// File -> Scene: Farlight scene JSON v1 (scenes/farlight-scene.schema.json) or glTF 2.0.
+// File -> Scene: Farlight scene JSON v1 (scenes/schema/farlight-scene.schema.json) or glTF 2.0.
 #pragma once
 
 #include "server/scene/scene.h"

@@ -1,7 +1,7 @@
 // What a scene says about settings: who wins, and what is refused where.
 #include "server/render/scene_settings.h"
+#include "tests/support/shipped_scenes.h"
 
-#include <filesystem>
 #include <gmock/gmock.h>
 
 namespace farlight {
@@ -72,13 +72,11 @@ TEST(SceneSettingsTest, EffectsMustHoldWhatTheSceneCallsFor)
 TEST(SceneSettingsTest, ShippedScenesSayWhatTheTableKnows)
 {
     int some = 0;
-    for (const auto& entry :
-        std::filesystem::directory_iterator(std::filesystem::path(FARLIGHT_SOURCE_DIR) / "scenes"))
-        if (entry.path().extension() == ".json" && !entry.path().stem().has_extension()) {
-            const Scene scene = load_scene(entry.path());
-            EXPECT_NO_THROW(check_settings(scene, {})) << entry.path();
-            some += scene.settings.empty() ? 0 : 1;
-        }
+    for (const auto& file : shipped_scenes()) {
+        const Scene scene = load_scene(file);
+        EXPECT_NO_THROW(check_settings(scene, {})) << file;
+        some += scene.settings.empty() ? 0 : 1;
+    }
     EXPECT_GT(some, 3);
 }
 

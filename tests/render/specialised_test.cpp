@@ -2,8 +2,8 @@
 // in every texture of every frame, histories and the picture included.
 #include "server/render/live_scene.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/shipped_scenes.h"
 
-#include <filesystem>
 #include <iomanip>
 #include <numeric>
 #include <random>
@@ -159,15 +159,11 @@ unsigned seed_of(const std::string& scene)
         [](unsigned sum, char c) { return 31 * sum + static_cast<unsigned char>(c); });
 }
 
-std::vector<std::string> shipped_scenes()
+std::vector<std::string> scene_names()
 {
     std::vector<std::string> names;
-    for (const auto& file :
-        std::filesystem::directory_iterator(std::string(FARLIGHT_SOURCE_DIR) + "/scenes"))
-        if (file.path().extension() == ".json"
-            && file.path().filename() != "farlight-scene.schema.json")
-            names.push_back(file.path().stem());
-    std::sort(names.begin(), names.end());
+    for (const auto& file : shipped_scenes())
+        names.push_back(file.stem());
     return names;
 }
 
@@ -239,7 +235,7 @@ TEST_P(SpecialisedLongTest, EqualsTheGeneralProgramBitForBit)
     expect_as_general(subject, many, choices, GetParam() + " averaged");
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedLongTest, testing::ValuesIn(shipped_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedLongTest, testing::ValuesIn(scene_names()),
     [](const auto& test) { return test.param; });
 
 /// Each effect compiled in for nothing.

@@ -1,7 +1,7 @@
 // The scenes in scenes/ are what their README says they are.
 #include "server/scene/scene_file.h"
+#include "tests/support/shipped_scenes.h"
 
-#include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <map>
@@ -13,16 +13,6 @@ namespace farlight {
 namespace {
 
 const std::filesystem::path kScenes = std::filesystem::path(FARLIGHT_SOURCE_DIR) / "scenes";
-
-std::vector<std::filesystem::path> shipped_scenes()
-{
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(kScenes))
-        if (entry.path().extension() == ".json"
-            && !entry.path().filename().string().ends_with(".schema.json"))
-            files.push_back(entry.path());
-    return files;
-}
 
 class ShippedSceneTest : public testing::TestWithParam<std::filesystem::path> { };
 
