@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <stb/stb_image.h>
 #include <string_view>
 #include <tinyexr.h>
@@ -61,8 +62,28 @@ void check_size(const Size& size, const ScenePlace& place)
             "at least 1 and at most " + std::to_string(kLargestImageSide) + " texels a side");
 }
 
+/// The size that a PNG states, for stb has no size to tell of very large ones. PNG specification,
+/// 11.2.2 IHDR.
+std::optional<Size> png_size(const Encoded& picture)
+{
+    constexpr std::string_view kStart("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR", 16);
+    const std::string_view bytes(
+        reinterpret_cast<const char*>(picture.bytes), static_cast<std::size_t>(picture.length));
+    if (bytes.size() < kStart.size() + 8 || !bytes.starts_with(kStart))
+        return std::nullopt;
+    const auto big_endian = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = value << 8 | picture.bytes[at + i];
+        return static_cast<int>(std::min(value, 0x7fffffffU));
+    };
+    return Size{big_endian(kStart.size()), big_endian(kStart.size() + 4)};
+}
+
 Size stb_size(const Encoded& picture, const ScenePlace& place, const char* expected)
 {
+    if (const std::optional<Size> stated = png_size(picture))
+        check_size(*stated, place);
     Size size;
     int channels = 0;
     if (stbi_info_from_memory(picture.bytes, picture.length, &size.width, &size.height, &channels)

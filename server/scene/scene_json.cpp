@@ -3,11 +3,13 @@
 #include "server/scene/scene_json.h"
 
 #include "server/scene/json_schema.h"
+#include "server/scene/material_textures.h"
 #include "server/scene/scene_defaults.h"
 #include "server/scene/scene_json_light.h"
 #include "server/scene/scene_json_object.h"
 #include "server/scene/scene_json_surroundings.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace farlight {
@@ -25,6 +27,28 @@ void check_extent(const Scene& scene)
                 && std::abs(bounds.upper[axis]) <= kLargestCoordinate))
             refuse({scene.file, {}}, "objects beyond 1e11 in world space",
                 "coordinates of at most 1e11 in magnitude");
+}
+
+bool lacks_uvs(const Scene& scene, const Object& object)
+{
+    const auto* instance = std::get_if<MeshInstance>(&object.shape);
+    if (instance == nullptr)
+        return false;
+    const Mesh& mesh = scene.meshes[instance->mesh];
+    const auto textures = textures_of(scene.materials[object.material]);
+    return std::any_of(textures.begin(), textures.end(), [&](const Texture* texture) {
+        return texture->used() && mesh.uvs[texture->uv_set].empty();
+    });
+}
+
+void note_missing_uvs(Scene& scene)
+{
+    const auto count = std::count_if(scene.objects.begin(), scene.objects.end(),
+        [&](const Object& object) { return lacks_uvs(scene, object); });
+    if (count > 0)
+        scene.notes.push_back(std::to_string(count)
+            + " objects with a textured material lack texture coordinates: they show the texel at "
+              "0, 0");
 }
 
 }  // namespace
@@ -56,6 +80,7 @@ Scene scene_from_json(const Json& document, const SceneSource& source, SceneFile
         add_framing_camera(scene);
     read_camera(document, root, scene);
     check_extent(scene);
+    note_missing_uvs(scene);
     read_camera_paths(document, root, scene);
     if (source.is_gltf)
         add_default_light(scene);

@@ -304,5 +304,21 @@ TEST_F(GltfMaterialTest, WhatOnlyAnExtensionPicturesIsNoted)
             "extensions that are not read: KHR_texture_basisu"}));
 }
 
+TEST_F(GltfMaterialTest, AMeshWithoutTheCoordinatesOfItsTexturesIsNoted)
+{
+    const char* note = "1 objects with a textured material lack texture coordinates: they show the "
+                       "texel at 0, 0";
+    GltfBuilder gltf =
+        with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+    EXPECT_THAT(load(gltf).notes, Contains(note));
+    gltf.document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+        gltf.add<float>({0, 0, 1, 0, 0, 1}, "VEC2");
+    EXPECT_THAT(load(gltf).notes, testing::Not(Contains(note)));
+    gltf.document["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
+    EXPECT_THAT(load(gltf).notes, Contains(note));
+    gltf.document["materials"] = {Json::object()};
+    EXPECT_THAT(load(gltf).notes, testing::Not(Contains(note)));
+}
+
 }  // namespace
 }  // namespace farlight

@@ -99,10 +99,13 @@ TEST(ImageFile, WhatIsNoPictureIsRefused)
         refusal_for(folder.write("empty.png", "")), "found an empty file, expected a picture");
     EXPECT_EQ(refusal_for(folder.write("text.png", "hello")),
         "found no picture: unknown image type, expected a PNG or JPEG picture");
-    std::string huge = png8(1, 1, {1, 2, 3, 4});
-    huge[18] = '\x7f';  // the third byte of the width
-    EXPECT_THAT(refusal_for(folder.write("huge.png", huge)),
-        testing::EndsWith("expected at least 1 and at most 16384 texels a side"));
+    for (const std::size_t byte : {16, 17, 18}) {  // of the width, from the largest
+        std::string huge = png8(1, 1, {1, 2, 3, 4});
+        huge[byte] = '\x7f';
+        EXPECT_THAT(refusal_for(folder.write("huge.png", huge)),
+            testing::EndsWith("expected at least 1 and at most 16384 texels a side"))
+            << byte;
+    }
     const auto png = folder.write("sky.png", png8(1, 1, {1, 2, 3, 4}));
     EXPECT_EQ(refusal(png.string(), [&] { read_environment_map(png); }),
         "found neither of the two, expected a Radiance HDR (.hdr) or OpenEXR (.exr) picture");
