@@ -204,12 +204,27 @@ struct MemoryUse {
     }
 };
 
+/// A number that programs are compiled with.
+struct ProgramConstant {
+    std::string name;
+    std::uint64_t value = 0;
+
+    bool operator==(const ProgramConstant&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("name", m.name, Rule{});
+        visit("value", m.value, Rule{});
+    }
+};
+
 /// What the scene calls for, and what this session's last frame was drawn with.
 struct Inspection {
     static constexpr std::string_view kType = "inspection";
 
     std::vector<CalledEffect> effects;
     std::vector<std::string> program;
+    std::vector<ProgramConstant> constants;
     bool general = false;  ///< `program` is the one that holds everything.
     std::vector<std::string> passes;
     std::vector<MemoryUse> scene_memory;
@@ -222,6 +237,7 @@ struct Inspection {
     {
         visit("effects", m.effects, Rule{});
         visit("program", m.program, Rule{});
+        visit("constants", m.constants, Rule{});
         visit("general", m.general, kOptional);
         visit("passes", m.passes, Rule{});
         visit("scene_memory", m.scene_memory, Rule{});

@@ -56,7 +56,11 @@ void print_inspection(const protocol::Inspection& inspection)
 {
     for (const auto& effect : inspection.effects)
         std::cout << "effect    " << effect.name << ": " << effect.reason << "\n";
+    std::vector<std::string> constants;
+    for (const auto& constant : inspection.constants)
+        constants.push_back(constant.name + " " + std::to_string(constant.value));
     std::cout << "program   " << join(inspection.program) << "\n"
+              << "constants " << join(constants) << "\n"
               << "passes    " << join(inspection.passes) << "\n"
               << std::flush;
     print_memory("of the scene", inspection.scene_memory);

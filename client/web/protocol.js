@@ -49,7 +49,7 @@ export const SERVER_MESSAGES = {
     welcome: ["protocol", "server", "session", "mode", "format", "size", "max_in_flight", "device",
         "gl_renderer", "scene", "camera", "camera_paths", "effects", "settings", "limits"],
     scene_changed: ["scene", "effects"],
-    inspection: ["effects", "program", "passes", "scene_memory", "view_memory", "compile_ms"],
+    inspection: ["effects", "program", "constants", "passes", "scene_memory", "view_memory", "compile_ms"],
     state: ["settings", "size", "format"],
     error: ["code", "message", "fatal"],
     pong: ["t"],

@@ -82,6 +82,14 @@ bool has_room(const Defines& has, const Defines& needed)
 
 }  // namespace
 
+std::vector<std::pair<std::string, int>> Variant::constants() const
+{
+    std::vector<std::pair<std::string, int>> numbers;
+    for (const auto& [name, value] : room_of(inputs.defines))
+        numbers.emplace_back(name, value_of(value));
+    return numbers;
+}
+
 /// What the worker has compiled, on its way to the GL thread.
 struct ScenePrograms::Finished {
     std::vector<std::pair<ProgramKey, std::unique_ptr<Program>>> programs;

@@ -17,6 +17,9 @@ namespace farlight {
 struct Variant {
     EffectMask mask;
     SceneInputs inputs;
+
+    /// The numbers among the defines: what the programs have room for.
+    std::vector<std::pair<std::string, int>> constants() const;
 };
 
 /// Declares a frame's passes; kept until the programs it asks for are compiled.

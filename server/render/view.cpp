@@ -140,6 +140,7 @@ void View::begin(const RenderRequest& request)
     frame_.moves = moves() && frame_.time >= request.time;
     frame_.history_reset = !has_history_;
     frame_.effects = variant.mask;
+    frame_.constants = variant.constants();
     frame_.compile_ms = scene_.scene_programs.last_compile_ms();
     const int averaged = mean_frames_ > 0 ? mean_frames_ : still_frames_;
     frame_.accumulated_samples = static_cast<std::uint32_t>(averaged)

@@ -54,6 +54,8 @@ protocol::Inspection inspection_of(const RenderedFrame& frame)
     protocol::Inspection inspection;
     for (const std::string_view name : frame.effects.names())
         inspection.program.emplace_back(name);
+    for (const auto& [name, value] : frame.constants)
+        inspection.constants.push_back({name, static_cast<std::uint64_t>(value)});
     inspection.general = frame.effects == EffectMask::general();
     for (const PassTime& time : frame.pass_times)
         inspection.passes.push_back(time.pass);

@@ -136,7 +136,7 @@ class Session {
         const general = this.server.behaviour.general || this.value("effects") === "general";
         this.say({
             type: "inspection", effects: EFFECTS, general, program: general ? EVERY_EFFECT : EFFECTS.map(({ name }) => name),
-            passes: ["gbuffer", "path_trace"], scene_memory: [{ name: "bvh_nodes", bytes: 1344 }, { name: "vertices", bytes: 5_000_000 }],
+            constants: [{ name: "BVH_STACK_SIZE", value: general ? 64 : 5 }], passes: ["gbuffer", "path_trace"], scene_memory: [{ name: "bvh_nodes", bytes: 1344 }, { name: "vertices", bytes: 5_000_000 }],
             view_memory: Array.from({ length: 13 }, (_, i) => ({ name: `svgf.texture_${Math.max(1, i)}`, bytes: 1e6 * Math.max(1, i) })), compile_ms: 812.5,
         });
     }

@@ -81,6 +81,7 @@ TEST_F(CommandTest, InfoSaysWhatTheServerIs)
     EXPECT_THAT(text.out, HasSubstr("same seed, same picture"));
     EXPECT_THAT(text.out, HasSubstr("fog: medium 'haze'"));
     EXPECT_THAT(text.out, HasSubstr("program   fog, lens"));
+    EXPECT_THAT(text.out, HasSubstr("constants BVH_STACK_SIZE 9\n"));
     EXPECT_THAT(text.out, HasSubstr("bvh_nodes"));
     const Outcome json = farlight("info --json" + url);
     EXPECT_EQ(nlohmann::json::parse(json.out)["scene"]["name"], "Fake");

@@ -216,6 +216,7 @@ void serve_lockstep(FakePeer& peer, const FakeRenderer& renderer)
         } else if (std::holds_alternative<Inspect>(message)) {
             peer.send(Inspection{.effects = {{"fog", "medium 'haze'"}},
                 .program = {"fog", "lens"},
+                .constants = {{"BVH_STACK_SIZE", 9}},
                 .passes = {"path_trace"},
                 .scene_memory = {{"bvh_nodes", 1024}},
                 .view_memory = {{"gbuffer", 2048}},

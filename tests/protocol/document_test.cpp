@@ -179,6 +179,7 @@ TEST(ProtocolDocument, FieldTablesEqualTheCode)
     EXPECT_THAT(rows_in_page("4/scene_changed"), ElementsAreArray(rows_in_code<SceneChanged>()));
     EXPECT_THAT(rows_in_page("4/inspection"), ElementsAreArray(rows_in_code<Inspection>()));
     EXPECT_THAT(rows_in_page("4/effect"), ElementsAreArray(rows_in_code<CalledEffect>()));
+    EXPECT_THAT(rows_in_page("4/constant"), ElementsAreArray(rows_in_code<ProgramConstant>()));
     EXPECT_THAT(rows_in_page("4/memory"), ElementsAreArray(rows_in_code<MemoryUse>()));
     EXPECT_THAT(rows_in_page("4/pong"), ElementsAreArray(rows_in_code<Pong>()));
     EXPECT_THAT(rows_in_page("4/bye"), ElementsAreArray(rows_in_code<ServerBye>()));

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <functional>
+#include <gmock/gmock.h>
 
 namespace farlight {
 namespace {
@@ -41,11 +42,16 @@ TEST_F(SceneProgramsTest, GeneralProgramsDrawUntilTheScenesOwnAreReadyAndHistory
     View view(live.shared());
     const RenderedFrame first = draw(view, room_, kGeneral);
     EXPECT_EQ(first.effects, EffectMask::general());
+    EXPECT_THAT(first.constants, testing::Contains(testing::Pair("BVH_STACK_SIZE", 64)));
     live.finish_programs();
     EXPECT_EQ(woken_, 1);
     const RenderedFrame second = draw(view, room_);
     EXPECT_EQ(second.effects, mask_of(live.gpu().effects()));
     EXPECT_FALSE(second.history_reset);
+    // What the tree of some hundred triangles may need, far from the deepest there is.
+    EXPECT_THAT(second.constants,
+        testing::Contains(
+            testing::Pair("BVH_STACK_SIZE", testing::AllOf(testing::Gt(3), testing::Lt(32)))));
 
     View always_general(live.shared());
     draw(always_general, room_, kGeneral);

@@ -138,6 +138,8 @@ TEST(InspectTest, TellsWhatTheSceneCallsForAndWhatDrewTheLastFrame)
     client.say(protocol::Inspect{});
     const auto after = client.next<protocol::Inspection>();
     EXPECT_THAT(after.program, testing::ElementsAre("fog"));
+    EXPECT_THAT(
+        after.constants, testing::ElementsAre(protocol::ProgramConstant{"BVH_STACK_SIZE", 9}));
     EXPECT_FALSE(after.general);
 }
 
