@@ -193,14 +193,19 @@ std::vector<EffectPair> pairs_of_the_rest()
         {"lens", change_nothing, [](Scene& s) { s.lens.radius = 0.1; },
             {"uniform lens_radius", "uniform focus_distance"}},
         {"specular_signal", change_nothing, material([](Material& m) { m.clearcoat = 1; }),
-            {"uniform (in|out)_(specular|shown|reflectance)", "uniform (in|prev)_position",
+            {"uniform (in|out)_(specular|shown|reflectance)", "uniform in_position",
                 "texture gbuffer.reflectance", "texture path_trace.(specular|shown)",
-                "texture svgf.*specular.*", "pass svgf specular .*",
-                "(uniform|buffer) reflection_albedo"},
+                "texture svgf.*specular.*", "pass svgf specular .*", "uniform reflection_albedo"},
             {"clearcoat"}},
         {"antialiasing", change_nothing, change_nothing, {"uniform pixel_jitter"}},
         {"denoising", change_nothing, change_nothing,
-            {"pass (svgf .*|composite|refine)", "texture (svgf.*|composite|refine)", "uniform .*"}},
+            {"pass (svgf .*|composite|refine)", "texture (svgf.*|composite|refine)",
+                "uniform in_(surface|motion|identity|light|light_2|length|moments|denoised|mean)",
+                "uniform prev_(surface|identity|light|light_2|length|moments)",
+                "uniform out_(light|light_2|length|moments)",
+                "uniform sigma_(depth|luminance|normal)", "uniform reproject_(depth|normal)",
+                "uniform svgf_(alpha|moments_alpha|spatial_frames)", "uniform history_(max|valid)",
+                "uniform step_size", "uniform mean_weight"}},
     };
 }
 

@@ -17,9 +17,9 @@ struct EffectPair {
     std::string_view effect;
     SceneChange without;  ///< What both scenes have besides lit_scene().
     SceneChange with;  ///< What calls for the effect.
-    /// Every trace that the effect leaves, as regular expressions: "uniform NAME" in a program,
-    /// "buffer NAME" of the scene, "texture NAME" of a view, "pass NAME" of a frame, and "code
-    /// WORD" that is left of the shaders when all else is compiled out.
+    /// Every trace that the effect leaves: "uniform NAME" in a program, "buffer NAME" of the scene,
+    /// "texture NAME" of a view, "pass NAME" of a frame, and "code WORD" that is left of the
+    /// shaders when all else is compiled out. Regular expressions; of `(a|b)` both are left.
     std::vector<const char*> traces;
     /// Effects that the second scene cannot but gain with it.
     std::vector<std::string_view> along = {};
