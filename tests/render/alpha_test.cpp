@@ -151,6 +151,55 @@ TEST_F(BlendTest, ManyVeilsEndNoLoop)
         }
 }
 
+/// A white box full of fog without absorption, a lamp inside; `open_masks` cross it, all hole.
+Scene foggy_box(int open_masks)
+{
+    Scene scene;
+    scene.materials.push_back({"white", glm::vec3(0.95F)});
+    scene.materials.push_back({"open", glm::vec3(0)});
+    scene.materials[1].alpha_mode = AlphaMode::kMask;
+    scene.materials[1].albedo_texture.image = 0;
+    scene.materials[1].albedo_texture.nearest = true;
+    // Everywhere the middle of the texel that is clear.
+    scene.materials[1].albedo_texture.image_from_uv = {
+        glm::vec3(0), glm::vec3(0), glm::vec3(0.25, 0.5, 1)};
+    scene.images.push_back({"hole", 2, 1, {{255, 255, 255, 0}, {255, 255, 255, 255}}});
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            Quad wall{{-1, -1, -1}, {}, {}};
+            wall.corner[axis] = side;
+            wall.edge_u[(axis + 1) % 3] = 2;
+            wall.edge_v[(axis + 2) % 3] = 2;
+            scene.objects.push_back({"wall", 0, wall});
+        }
+    for (int i = 0; i < open_masks; ++i)
+        scene.objects.push_back(
+            {"mask", 1, Quad{{-1, -0.9 + 1.8 * (i + 0.5) / open_masks, -1}, {2, 0, 0}, {0, 0, 2}}});
+    scene.medium = {"milk", glm::vec3(2), glm::vec3(2), 0};
+    scene.lights.push_back({.name = "lamp"});
+    scene.camera = {{0, 0.02, 0.9}, {0, 0.02, 0}, {0, 1, 0}, 60};
+    return scene;
+}
+
+/// The longest paths there are, through fog and many holes: not one is cut short, though llvmpipe
+/// ends all loops of an invocation after 65535 rounds together. 80 holes on a ray would be too many.
+TEST_F(BlendTest, OpenMasksCutNoLongPathShort)
+{
+    const auto picture = [](const Scene& scene) {
+        const TestScene on_device(scene);
+        RenderRequest request = linear_request(on_device.scene, {16, 16}, {});
+        request.settings.denoiser = Denoiser::kAccumulate;
+        request.settings.max_depth = request.settings.roulette_depth = 64;
+        View view(on_device.shared);
+        return view.render(request).image;
+    };
+    const Image without = picture(foggy_box(0));
+    const Image with = picture(foggy_box(64));
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            ASSERT_EQ(pixel(with, x, y), pixel(without, x, y)) << x << "," << y;
+}
+
 /// A white floor under a veil: the sun reaches it through the veil, and the camera sees it below.
 TEST_F(BlendTest, ShadowsAreAsDeepAsTheVeilIsDense)
 {
