@@ -4,6 +4,7 @@
 // Seeds are fixed; the bounds are 5 standard errors, which a fresh seed would exceed once in 1.7
 // million, and what the albedo tables are interpolated to, 2e-3 a bounce.
 #include "tests/support/gl_test.h"
+#include "tests/support/lossless_materials.h"
 #include "tests/support/meshes.h"
 #include "tests/support/statistics.h"
 
@@ -12,39 +13,6 @@
 
 namespace farlight {
 namespace {
-
-Material white(float metallic, float roughness)
-{
-    return {.name = "white", .albedo = glm::vec3(1), .metallic = metallic, .roughness = roughness};
-}
-
-Material plastic(float roughness)
-{
-    Material m = white(0, roughness);
-    m.specular = 1;
-    return m;
-}
-
-Material glass(float roughness)
-{
-    Material m = plastic(roughness);
-    m.transmission = 1;
-    return m;
-}
-
-Material thin(float roughness)
-{
-    Material m = glass(roughness);
-    m.thin_walled = true;
-    return m;
-}
-
-Material coated(Material m, float roughness)
-{
-    m.clearcoat = 1;
-    m.clearcoat_roughness = roughness;
-    return m;
-}
 
 /// Normals all over the upper hemisphere, down to 17 degrees above the surface.
 Image8 wild_normals()
@@ -105,11 +73,11 @@ Scene smooth_bumps(const Material& material)
 /// A denser ball in a ball, and one that overlaps both.
 Scene nested()
 {
-    Scene scene = ball(glass(0));
-    Material dense = glass(0);
+    Scene scene = ball(lossless::glass(0));
+    Material dense = lossless::glass(0);
     dense.ior = 2;
     dense.priority = 1;
-    Material light = glass(0.3F);
+    Material light = lossless::glass(0.3F);
     light.ior = 1.2F;
     light.priority = -1;
     scene.materials.push_back(dense);
@@ -148,25 +116,25 @@ TEST_P(WhiteFurnace, EverythingWhiteDisappears)
 }
 
 INSTANTIATE_TEST_SUITE_P(Bsdf, WhiteFurnace,
-    testing::Values(MaterialFurnaceCase{"Metal", ball(white(1, 0.6F))},
-        MaterialFurnaceCase{"Mirror", ball(white(1, 0))},
-        MaterialFurnaceCase{"Plastic", ball(plastic(0.4F))},
-        MaterialFurnaceCase{"Polished", ball(plastic(0))},
-        MaterialFurnaceCase{"Coated", ball(coated(plastic(0.6F), 0.2F))},
-        MaterialFurnaceCase{"Lacquer", ball(coated(white(0, 1), 0))},
-        MaterialFurnaceCase{"Glass", ball(glass(0))},
-        MaterialFurnaceCase{"RoughGlass", ball(glass(0.5F)), 6e-3},
-        MaterialFurnaceCase{"Bubble", ball(thin(0))},
-        MaterialFurnaceCase{"FrostedBubble", ball(thin(0.5F))},
+    testing::Values(MaterialFurnaceCase{"Metal", ball(lossless::white(1, 0.6F))},
+        MaterialFurnaceCase{"Mirror", ball(lossless::white(1, 0))},
+        MaterialFurnaceCase{"Plastic", ball(lossless::plastic(0.4F))},
+        MaterialFurnaceCase{"Polished", ball(lossless::plastic(0))},
+        MaterialFurnaceCase{"Coated", ball(lossless::coated(lossless::plastic(0.6F), 0.2F))},
+        MaterialFurnaceCase{"Lacquer", ball(lossless::coated(lossless::white(0, 1), 0))},
+        MaterialFurnaceCase{"Glass", ball(lossless::glass(0))},
+        MaterialFurnaceCase{"RoughGlass", ball(lossless::glass(0.5F)), 6e-3},
+        MaterialFurnaceCase{"Bubble", ball(lossless::thin_glass(0))},
+        MaterialFurnaceCase{"FrostedBubble", ball(lossless::thin_glass(0.5F))},
         MaterialFurnaceCase{"Nested", nested(), 6e-3},
-        MaterialFurnaceCase{"LambertRelief", rough_relief(white(0, 1))},
-        MaterialFurnaceCase{"MetalRelief", rough_relief(white(1, 0.5F))},
-        MaterialFurnaceCase{"MirrorRelief", rough_relief(white(1, 0))},
-        MaterialFurnaceCase{"PlasticRelief", rough_relief(plastic(0.4F))},
-        MaterialFurnaceCase{"BubbleRelief", rough_relief(thin(0.4F))},
-        MaterialFurnaceCase{"LambertBumps", smooth_bumps(white(0, 1))},
-        MaterialFurnaceCase{"MetalBumps", smooth_bumps(white(1, 0.3F))},
-        MaterialFurnaceCase{"GlassBumps", smooth_bumps(glass(0)), 4e-3}),
+        MaterialFurnaceCase{"LambertRelief", rough_relief(lossless::white(0, 1))},
+        MaterialFurnaceCase{"MetalRelief", rough_relief(lossless::white(1, 0.5F))},
+        MaterialFurnaceCase{"MirrorRelief", rough_relief(lossless::white(1, 0))},
+        MaterialFurnaceCase{"PlasticRelief", rough_relief(lossless::plastic(0.4F))},
+        MaterialFurnaceCase{"BubbleRelief", rough_relief(lossless::thin_glass(0.4F))},
+        MaterialFurnaceCase{"LambertBumps", smooth_bumps(lossless::white(0, 1))},
+        MaterialFurnaceCase{"MetalBumps", smooth_bumps(lossless::white(1, 0.3F))},
+        MaterialFurnaceCase{"GlassBumps", smooth_bumps(lossless::glass(0)), 4e-3}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -1,25 +1,12 @@
 // The G-buffer against a double-precision camera on the CPU: motion, depth and its gradient.
-#include "server/render/camera.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/meshes.h"
+#include "tests/support/projection.h"
 
 namespace farlight {
 namespace {
 
 constexpr Extent kGbufferExtent{97, 61};
-
-/// Pixel coordinates and view depth of a world position, in double.
-glm::dvec3 project(const CameraPose& pose, const glm::dvec3& position)
-{
-    const CameraBasis basis = camera_basis(pose);
-    const double half_height = std::tan(glm::radians(pose.vertical_fov_degrees) / 2);
-    const double half_width = half_height * kGbufferExtent.width / kGbufferExtent.height;
-    const glm::dvec3 v = position - pose.position;
-    const double depth = glm::dot(v, basis.forward);
-    const double x = glm::dot(v, basis.right) / (depth * half_width);
-    const double y = glm::dot(v, basis.up) / (depth * half_height);
-    return {(x + 1) / 2 * kGbufferExtent.width, (1 - y) / 2 * kGbufferExtent.height, depth};
-}
 
 Image view_of(View& view, const Scene& scene, const CameraPose& camera, DebugView which)
 {
@@ -63,7 +50,8 @@ TEST_P(MotionTest, EqualsADoublePrecisionReprojection)
             if (p == glm::dvec3(0))
                 continue;
             ++met;
-            const glm::dvec3 expected = project(before, p) - project(now, p);
+            const glm::dvec3 expected =
+                project(before, p, kGbufferExtent) - project(now, p, kGbufferExtent);
             ASSERT_NEAR(pixel(motion, x, y).x, expected.x, 1e-3) << x << "," << y;
             ASSERT_NEAR(pixel(motion, x, y).y, expected.y, 1e-3) << x << "," << y;
             ASSERT_NEAR(pixel(motion, x, y).z, expected.z, 1e-5 * scene_bounds(scene).radius())

@@ -1,10 +1,10 @@
 // Motion vectors as the G-buffer writes them, against a double-precision oracle that poses things
 // by their formulas: rigid, skinned, morphed, at rest, each under a moving camera, and all
 // together. The camera alone: gbuffer_test.cpp.
-#include "server/render/camera.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/meshes.h"
 #include "tests/support/moving_scenes.h"
+#include "tests/support/projection.h"
 
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
@@ -17,19 +17,6 @@ constexpr Extent kPicture{97, 61};
 constexpr double kThen = 0.3;
 constexpr double kNow = 0.7;
 constexpr double kTolerance = 1e-3;  // [px]
-
-/// Pixel coordinates and view depth of a world position, in double.
-glm::dvec3 seen_at(const CameraPose& pose, const glm::dvec3& position)
-{
-    const CameraBasis basis = camera_basis(pose);
-    const double half_height = std::tan(glm::radians(pose.vertical_fov_degrees) / 2);
-    const double half_width = half_height * kPicture.width / kPicture.height;
-    const glm::dvec3 v = position - pose.position;
-    const double depth = glm::dot(v, basis.forward);
-    const double x = glm::dot(v, basis.right) / (depth * half_width);
-    const double y = glm::dot(v, basis.up) / (depth * half_height);
-    return {(x + 1) / 2 * kPicture.width, (1 - y) / 2 * kPicture.height, depth};
-}
 
 /// Where the point of a thing that is at `now` at kNow was at kThen.
 using Past = std::function<glm::dvec3(const glm::dvec3& now)>;
@@ -152,8 +139,8 @@ protected:
                     continue;
                 const auto object = static_cast<std::size_t>(pixel(objects, x, y).x);
                 const glm::dvec3 past = pasts.at(object)(now);
-                const glm::dvec3 here = seen_at(camera, now);
-                const glm::dvec3 expected = seen_at(before, past) - here;
+                const glm::dvec3 here = project(camera, now, kPicture);
+                const glm::dvec3 expected = project(before, past, kPicture) - here;
                 const glm::dvec3 found(pixel(motion, x, y));
                 ASSERT_NEAR(found.x, expected.x, kTolerance) << x << "," << y;
                 ASSERT_NEAR(found.y, expected.y, kTolerance) << x << "," << y;
@@ -164,8 +151,8 @@ protected:
                 };
                 Caught& c = caught[object];
                 ++c.seen;
-                c.thing += differs(seen_at(before, now)) ? 1 : 0;
-                c.camera += differs(seen_at(camera, past)) ? 1 : 0;
+                c.thing += differs(project(before, now, kPicture)) ? 1 : 0;
+                c.camera += differs(project(camera, past, kPicture)) ? 1 : 0;
             }
         EXPECT_EQ(caught.size(), pasts.size()) << "an object is out of the picture";
         for (const auto& [object, c] : caught) {

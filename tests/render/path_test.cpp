@@ -4,6 +4,7 @@
 // Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
 // which a fresh seed would exceed by chance once in 1.7 million.
 #include "tests/support/gl_test.h"
+#include "tests/support/lossless_materials.h"
 #include "tests/support/statistics.h"
 
 namespace farlight {
@@ -28,44 +29,6 @@ Image picture(const TestScene& scene, const RenderSettings& settings)
     RenderedFrame frame = view.render(linear_request(scene.scene, kPathExtent, settings));
     EXPECT_EQ(frame.nonfinite_count, 0U);
     return std::move(frame.image);
-}
-
-Material white(const char* name)
-{
-    return {name, glm::vec3(1)};
-}
-
-Material metal(float roughness)
-{
-    Material m = white("metal");
-    m.metallic = 1;
-    m.roughness = roughness;
-    return m;
-}
-
-Material plastic(float roughness)
-{
-    Material m = white("plastic");
-    m.specular = 1;
-    m.roughness = roughness;
-    return m;
-}
-
-Material coated(Material m, float roughness)
-{
-    m.clearcoat = 1;
-    m.clearcoat_roughness = roughness;
-    return m;
-}
-
-Material glass(float roughness, bool thin_walled = false)
-{
-    Material m = white("glass");
-    m.specular = 1;
-    m.transmission = 1;
-    m.roughness = roughness;
-    m.thin_walled = thin_walled;
-    return m;
 }
 
 struct Lossless {
@@ -95,15 +58,20 @@ TEST_P(ObjectFurnaceTest, LosslessBallUnderAWhiteSkyVanishes)
 
 // The tolerance is that of the tables of albedos behind rough lobes; what needs none is exact.
 INSTANTIATE_TEST_SUITE_P(Materials, ObjectFurnaceTest,
-    testing::Values(Lossless{"Lambert", white("lambert"), 1e-5}, Lossless{"Mirror", metal(0), 1e-5},
-        Lossless{"SmoothMetal", metal(0.1F), 2e-3}, Lossless{"RoughMetal", metal(0.6F), 2e-3},
-        Lossless{"RoughestMetal", metal(1), 2e-3}, Lossless{"SmoothPlastic", plastic(0), 2e-3},
-        Lossless{"RoughPlastic", plastic(0.5F), 2e-3},
-        Lossless{"CoatedLambert", coated(white("base"), 0.1F), 2e-3},
-        Lossless{"CoatedMetal", coated(metal(0.5F), 0), 2e-3}, Lossless{"Glass", glass(0), 1e-4},
-        Lossless{"RoughGlass", glass(0.3F), 2e-3}, Lossless{"RoughestGlass", glass(1), 3e-3},
-        Lossless{"ThinGlass", glass(0, true), 1e-4},
-        Lossless{"ThinRoughGlass", glass(0.4F, true), 2e-3}),
+    testing::Values(Lossless{"Lambert", lossless::white(), 1e-5},
+        Lossless{"Mirror", lossless::white(1, 0), 1e-5},
+        Lossless{"SmoothMetal", lossless::white(1, 0.1F), 2e-3},
+        Lossless{"RoughMetal", lossless::white(1, 0.6F), 2e-3},
+        Lossless{"RoughestMetal", lossless::white(1, 1), 2e-3},
+        Lossless{"SmoothPlastic", lossless::plastic(0), 2e-3},
+        Lossless{"RoughPlastic", lossless::plastic(0.5F), 2e-3},
+        Lossless{"CoatedLambert", lossless::coated(lossless::white(), 0.1F), 2e-3},
+        Lossless{"CoatedMetal", lossless::coated(lossless::white(1, 0.5F), 0), 2e-3},
+        Lossless{"Glass", lossless::glass(0), 1e-4},
+        Lossless{"RoughGlass", lossless::glass(0.3F), 2e-3},
+        Lossless{"RoughestGlass", lossless::glass(1), 3e-3},
+        Lossless{"ThinGlass", lossless::thin_glass(0), 1e-4},
+        Lossless{"ThinRoughGlass", lossless::thin_glass(0.4F), 2e-3}),
     [](const auto& test) { return test.param.name; });
 
 /// A wall that shines, seen straight on through a plate; the camera sees a piece of it so small
@@ -138,7 +106,7 @@ class PlateTest : public GlTest, public testing::WithParamInterface<Plate> { };
 TEST_P(PlateTest, TransmitsWhatItMust)
 {
     const auto& [name, thin, absorption, expected] = GetParam();
-    Material material = glass(0, thin);
+    Material material = thin ? lossless::thin_glass(0) : lossless::glass(0);
     material.absorption = glm::vec3(absorption);
     const TestScene on_device(behind_plate(material, thin ? 0 : 0.7));
     const Estimate estimate = mean_of(picture(on_device, settings_of(24, 256)));
@@ -163,7 +131,7 @@ INSTANTIATE_TEST_SUITE_P(Glass, PlateTest,
 TEST_F(GlTest, MirrorsFacingEachOtherMultiplyTheirReflectances)
 {
     Scene scene;
-    Material mirror = metal(0);
+    Material mirror = lossless::white(1, 0);
     mirror.albedo = glm::vec3(0.5F, 0.8F, 1);
     scene.materials = {{"light", glm::vec3(0), glm::vec3(1), true}, mirror};
     scene.objects.push_back({"above", 1, Quad{{-50, 1, -50}, {100, 0, 0}, {0, 0, 100}}});
@@ -192,8 +160,9 @@ TEST_F(GlTest, MirrorsFacingEachOtherMultiplyTheirReflectances)
 TEST_F(GlTest, LightSamplingAgreesWithChanceOnAllMaterials)
 {
     Scene scene;
-    scene.materials = {{"light", glm::vec3(0), glm::vec3(3)}, white("floor"), metal(0.4F),
-        coated(plastic(0.3F), 0.3F), glass(0.4F), glass(0)};
+    scene.materials = {{"light", glm::vec3(0), glm::vec3(3)}, lossless::white(),
+        lossless::white(1, 0.4F), lossless::coated(lossless::plastic(0.3F), 0.3F),
+        lossless::glass(0.4F), lossless::glass(0)};
     scene.materials[1].albedo = glm::vec3(0.5F);
     scene.objects.push_back({"lamp", 0, Quad{{-2, 3, -2}, {4, 0, 0}, {0, 0, 4}}});
     scene.objects.push_back({"floor", 1, Quad{{-6, -1, -6}, {0, 0, 12}, {12, 0, 0}}});
@@ -219,8 +188,8 @@ TEST_F(GlTest, LightSamplingAgreesWithChanceOnAllMaterials)
 TEST_F(GlTest, SignalsAddUpToThePicture)
 {
     Scene scene;
-    scene.materials = {{"light", glm::vec3(0), glm::vec3(3)}, white("floor"), metal(0.2F),
-        coated(plastic(0.3F), 0), glass(0)};
+    scene.materials = {{"light", glm::vec3(0), glm::vec3(3)}, lossless::white(),
+        lossless::white(1, 0.2F), lossless::coated(lossless::plastic(0.3F), 0), lossless::glass(0)};
     scene.objects.push_back({"lamp", 0, Quad{{-2, 3, -2}, {4, 0, 0}, {0, 0, 4}}});
     scene.objects.push_back({"floor", 1, Quad{{-6, -1, -6}, {0, 0, 12}, {12, 0, 0}}});
     for (int i = 0; i < 3; ++i)
@@ -243,8 +212,8 @@ TEST_F(GlTest, SignalsAddUpToThePicture)
 TEST_F(GlTest, ManySamplesInOneFrameAreAllTraced)
 {
     Scene scene;
-    scene.materials = {white("glass"), white("walls")};
-    scene.materials[0] = glass(0);
+    scene.materials = {lossless::white(), lossless::white()};
+    scene.materials[0] = lossless::glass(0);
     scene.materials[1].albedo = glm::vec3(0.9F);
     for (int i = 0; i < 8; ++i)  // one within the other: a path meets many surfaces
         scene.objects.push_back({"shell", 0, Sphere{{0, 0, 0}, 1.0 - 0.1 * i}});
@@ -275,21 +244,21 @@ TEST_F(GlTest, NothingIsTracedWhereNothingScatters)
     black.materials = {{"black", glm::vec3(0), glm::vec3(1)}};
     black.objects.push_back({"ball", 0, Sphere{}});
     Scene dark;
-    dark.materials = {white("white")};
+    dark.materials = {lossless::white()};
     dark.objects.push_back({"ball", 0, Sphere{}});
     Scene unlit;
-    unlit.materials = {white("sign")};
+    unlit.materials = {lossless::white()};
     unlit.materials[0].unlit = true;
     unlit.objects.push_back({"ball", 0, Sphere{}});
-    for (Scene& scene : std::vector<Scene>{black, dark, unlit}) {
+    for (auto& [scene, expected] :
+        std::vector<std::pair<Scene, float>>{{black, 1.0F}, {dark, 0.0F}, {unlit, 1.0F}}) {
         scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 40};
         const TestScene on_device(scene);
         View view(on_device.shared);
         const Image image = view.render(linear_request(scene, kPathExtent, {})).image;
         for (const std::string& pass : view.graph().pass_names())
             EXPECT_TRUE(pass == "gbuffer" || pass.starts_with("composite")) << pass;
-        const float expected = scene.materials[0].name == "white" ? 0 : 1;
-        EXPECT_EQ(pixel(image, 24, 24), glm::vec3(expected)) << scene.materials[0].name;
+        EXPECT_EQ(pixel(image, 24, 24), glm::vec3(expected));
     }
 }
 

@@ -1,38 +1,13 @@
 // Each lobe at all angles, mixtures, and normals that lean.
 #include "tests/shaders/bsdf_cases.h"
 
+#include "tests/support/lossless_materials.h"
+
 #include <cmath>
 #include <functional>
 
 namespace farlight {
 namespace {
-
-Material white(float metallic, float roughness)
-{
-    return {.name = "", .albedo = glm::vec3(1), .metallic = metallic, .roughness = roughness};
-}
-
-Material plastic(float roughness)
-{
-    Material m = white(0, roughness);
-    m.specular = 1;
-    return m;
-}
-
-Material glass(float roughness, float ior = 1.5F)
-{
-    Material m = plastic(roughness);
-    m.transmission = 1;
-    m.ior = ior;
-    return m;
-}
-
-Material coated(Material m, float roughness)
-{
-    m.clearcoat = 1;
-    m.clearcoat_roughness = roughness;
-    return m;
-}
 
 /// Every roughness from a mirror to the roughest, from straight on to grazing.
 std::vector<BsdfCase> at_all_angles(const char* name,
@@ -55,28 +30,29 @@ std::vector<BsdfCase> at_all_angles(const char* name,
 /// Lobes of several kinds at once.
 std::vector<BsdfCase> mixtures()
 {
-    Material half_metal = plastic(0.4F);
+    Material half_metal = lossless::plastic(0.4F);
     half_metal.metallic = 0.5F;
-    Material frosted_paint = glass(0.5F);
+    Material frosted_paint = lossless::glass(0.5F);
     frosted_paint.transmission = 0.4F;
     frosted_paint.metallic = 0.3F;
-    Material thin_smooth = glass(0);
+    Material thin_smooth = lossless::glass(0);
     thin_smooth.thin_walled = true;
-    Material thin_rough = glass(0.5F);
+    Material thin_rough = lossless::glass(0.5F);
     thin_rough.thin_walled = true;
-    Material tinted = plastic(0.3F);
+    Material tinted = lossless::plastic(0.3F);
     tinted.specular_color = {1, 0.5F, 0.1F};
     tinted.specular = 0.7F;
-    const Material all = coated(frosted_paint, 0.2F);
+    const Material all = lossless::coated(frosted_paint, 0.2F);
     return {{"HalfMetal", half_metal}, {"FrostedPaint", frosted_paint},
         {"FrostedPaintInside", frosted_paint, 0.7, true, {}, {}, true, 2e-3},
         {"ThinSmooth", thin_smooth}, {"ThinRough", thin_rough}, {"Tinted", tinted},
         {"Everything", all, 0.7, false, {}, {}, true, 2e-3},
         {"EverythingGrazing", all, 0.05, false, {}, {}, true, 2e-3},
-        {"MirrorUnderCoat", coated(white(1, 0), 0.3F)},
-        {"MirrorCoatOverRough", coated(plastic(0.4F), 0)}, {"NoInterface", glass(0.5F, 1)},
-        {"AlmostNoInterface", glass(0.5F, 1.003F), 0.7, false, {}, {}, true, 5e-3},
-        {"Diamond", glass(0.3F, 2.42F), 0.7, false, {}, {}, true, 2e-3}};
+        {"MirrorUnderCoat", lossless::coated(lossless::white(1, 0), 0.3F)},
+        {"MirrorCoatOverRough", lossless::coated(lossless::plastic(0.4F), 0)},
+        {"NoInterface", lossless::glass(0.5F, 1)},
+        {"AlmostNoInterface", lossless::glass(0.5F, 1.003F), 0.7, false, {}, {}, true, 5e-3},
+        {"Diamond", lossless::glass(0.3F, 2.42F), 0.7, false, {}, {}, true, 2e-3}};
 }
 
 /// The shading normal leans away from the geometric one, towards the viewer or away.
@@ -90,14 +66,14 @@ std::vector<BsdfCase> leaning()
             const auto add = [&](const char* name, const Material& m) {
                 list.push_back({name + at, m, cosine, false, tilt, {}, true, 2e-3});
             };
-            add("Lambert", white(0, 1));
-            add("Metal", white(1, 0.4F));
-            add("Plastic", plastic(0.5F));
-            add("Glass", glass(0.4F));
-            add("SmoothGlass", glass(0));
-            add("Coated", coated(plastic(0.5F), 0.4F));
-            list.push_back({"CoatOnly" + at, coated(plastic(0.5F), 0.4F), cosine, false, {}, tilt,
-                true, 2e-3});
+            add("Lambert", lossless::white(0, 1));
+            add("Metal", lossless::white(1, 0.4F));
+            add("Plastic", lossless::plastic(0.5F));
+            add("Glass", lossless::glass(0.4F));
+            add("SmoothGlass", lossless::glass(0));
+            add("Coated", lossless::coated(lossless::plastic(0.5F), 0.4F));
+            list.push_back({"CoatOnly" + at, lossless::coated(lossless::plastic(0.5F), 0.4F),
+                cosine, false, {}, tilt, true, 2e-3});
         }
     return list;
 }
@@ -106,16 +82,18 @@ std::vector<BsdfCase> leaning()
 
 std::vector<BsdfFamily> bsdf_families()
 {
-    return {{"Lambert", {{"Lambert", white(0, 1)}}},
-        {"Metal", at_all_angles("Metal", [](float r) { return white(1, r); })},
-        {"Plastic", at_all_angles("Plastic", plastic)},
+    return {{"Lambert", {{"Lambert", lossless::white(0, 1)}}},
+        {"Metal", at_all_angles("Metal", [](float r) { return lossless::white(1, r); })},
+        {"Plastic", at_all_angles("Plastic", lossless::plastic)},
         {"Glass",
             at_all_angles(
-                "Glass", [](float r) { return glass(r); }, 2e-3)},
+                "Glass", [](float r) { return lossless::glass(r); }, 2e-3)},
         {"GlassInside",
             at_all_angles(
-                "Glass", [](float r) { return glass(r); }, 2e-3, true)},
-        {"Coated", at_all_angles("Coated", [](float r) { return coated(white(0, 1), r); })},
+                "Glass", [](float r) { return lossless::glass(r); }, 2e-3, true)},
+        {"Coated",
+            at_all_angles(
+                "Coated", [](float r) { return lossless::coated(lossless::white(0, 1), r); })},
         {"Mixtures", mixtures()}, {"Leaning", leaning()}};
 }
 
