@@ -9,8 +9,10 @@
 namespace farlight {
 namespace {
 
-/// The lamp is seen under (r / d)^2 = 1/25, so facing it a surface receives pi * 0.8 W/m^2.
-constexpr float kLampRadiance = 20;
+/// The lamp is seen under (r / d)^2 = 1/25: white that faces it shines with 0.2 + 16 / 25 = 0.84,
+/// not quite white on a display, and what it does not reach with up to 0.2.
+constexpr float kSkyRadiance = 0.2F;
+constexpr float kLampRadiance = 16;
 
 /// Or shows without light.
 bool is_lit(const Scene& scene)
@@ -61,14 +63,13 @@ void add_default_light(Scene& scene)
     const glm::dvec3 direction =
         glm::normalize(glm::dvec3(-0.5, 1, 0.6));  // over the viewer's left shoulder
     const double distance = 5 * bounds.radius();
-    scene.background = glm::vec3(0.4F);
+    scene.background = glm::vec3(kSkyRadiance);
     scene.materials.push_back({"default light", glm::vec3(0), glm::vec3(kLampRadiance)});
     scene.objects.push_back(
         {"default light", static_cast<std::uint32_t>(scene.materials.size() - 1),
             Sphere{bounds.center() + distance * direction, bounds.radius()}, false});
-    scene.notes.emplace_back(
-        "the file has no light: a soft one comes from all around, radiance 0.4, and from a lamp "
-        "over the viewer's left shoulder, radiance 20");
+    scene.notes.push_back("the file has no light: a soft one comes from all around, and one from a "
+                          "lamp over the viewer's left shoulder");
 }
 
 }  // namespace farlight
