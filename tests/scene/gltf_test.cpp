@@ -188,7 +188,7 @@ TEST_F(GltfTest, FlatInstancesAreLeftOut)
 TEST_F(GltfTest, WithoutCameraOrLightItGetsBoth)
 {
     const Scene scene = load(triangle_gltf());
-    EXPECT_EQ(scene.background, glm::vec3(0.4F));
+    EXPECT_EQ(scene.background, glm::vec3(0.2F));
     EXPECT_EQ(scene.objects.back().name, "default light");
     EXPECT_EQ(scene_bounds(scene).upper, glm::dvec3(1, 1, 0))
         << "the lamp is not part of what is framed";
