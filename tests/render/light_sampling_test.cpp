@@ -6,8 +6,8 @@
 #include "shaders/shared/frame_constants.h"
 #include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/statistics.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <functional>
 #include <random>
 
@@ -128,34 +128,6 @@ void main()
 )";
 };
 
-/// Probability of a chi-squared statistic this large or larger, with rare bins put together.
-double p_value(const std::vector<double>& observed, const std::vector<double>& expected)
-{
-    double statistic = 0;
-    double bins = 0;
-    double rare_observed = 0;
-    double rare_expected = 0;
-    const auto add = [&](double o, double e) {
-        statistic += (o - e) * (o - e) / e;
-        bins += 1;
-    };
-    for (std::size_t i = 0; i < observed.size(); ++i)
-        if (expected[i] >= 10) {
-            add(observed[i], expected[i]);
-        } else {
-            rare_observed += observed[i];
-            rare_expected += expected[i];
-        }
-    // Below one expected sample there is nothing to compare; what then is seen must be rounding.
-    if (rare_expected >= 1)
-        add(rare_observed, rare_expected);
-    else
-        EXPECT_LE(rare_observed, 20);
-    if (bins < 2)
-        return 1;
-    return boost::math::cdf(boost::math::complement(boost::math::chi_squared(bins - 1), statistic));
-}
-
 TEST_P(LightSamplingTest, SamplesFollowTheDensityOfHits)
 {
     const TestScene on_device(scene());
@@ -183,7 +155,7 @@ TEST_P(LightSamplingTest, SamplesFollowTheDensityOfHits)
         observed[bin] += 1;
         agreeing += s.z < 0 || std::abs(s.z - s.w) <= 0.01F * s.z ? 1 : 0;
     }
-    EXPECT_GT(p_value(observed, expected), kFalseAlarms);
+    EXPECT_GT(chi_squared_p_value(expected, observed), kFalseAlarms);
     // Rounding makes a ray miss a light at its silhouette, or meet the next texel of a map.
     EXPECT_GT(agreeing, 0.995 * kSamples);
 }

@@ -10,8 +10,8 @@
 #include "tests/shaders/bsdf_cases.h"
 #include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
+#include "tests/support/statistics.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -179,33 +179,6 @@ protected:
     }
 };
 
-/// Probability of a sum of squares this large or larger; bins are pooled until each expects 5.
-double p_value(const std::vector<double>& expected, const std::vector<double>& found)
-{
-    double chi2 = 0;
-    int bins = 0;
-    double pooled_expected = 0;
-    double pooled_found = 0;
-    const auto add = [&](double e, double f) { chi2 += (f - e) * (f - e) / e, ++bins; };
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-        if (expected[i] >= 5) {
-            add(expected[i], found[i]);
-            continue;
-        }
-        pooled_expected += expected[i];
-        pooled_found += found[i];
-        if (pooled_expected >= 5) {
-            add(pooled_expected, pooled_found);
-            pooled_expected = pooled_found = 0;
-        }
-    }
-    if (pooled_found > pooled_expected + 10)
-        return 0;
-    return bins < 2
-        ? 1
-        : boost::math::cdf(boost::math::complement(boost::math::chi_squared(bins - 1), chi2));
-}
-
 TEST_P(BsdfSampling, SamplesFollowTheirDensity)
 {
     const double threshold = 1 - std::pow(0.99, 1.0 / 200);
@@ -224,7 +197,7 @@ TEST_P(BsdfSampling, SamplesFollowTheirDensity)
         // What is lost into the surface or taken by a delta lobe.
         expected[kBins] = kSamples * std::max(0.0, 1 - total);
         EXPECT_LT(total, 1.001) << c.name;
-        EXPECT_GT(p_value(expected, found), threshold)
+        EXPECT_GT(chi_squared_p_value(expected, found), threshold)
             << c.name << ": density integrates to " << total;
     }
 }

@@ -1,9 +1,9 @@
 // Estimates in double precision.
 #include "tests/support/statistics.h"
 
+#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 namespace farlight {
 namespace {
@@ -55,6 +55,32 @@ double relative_mse(const Image& image, const Image& reference)
         sum += d * d / (static_cast<double>(r[i]) * r[i] + 0.01);
     }
     return sum / static_cast<double>(x.size());
+}
+
+double chi_squared_p_value(const std::vector<double>& expected, const std::vector<double>& found)
+{
+    double chi2 = 0;
+    int bins = 0;
+    double pooled_expected = 0;
+    double pooled_found = 0;
+    const auto add = [&](double e, double f) { chi2 += (f - e) * (f - e) / e, ++bins; };
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+        if (expected[i] >= 5) {
+            add(expected[i], found[i]);
+            continue;
+        }
+        pooled_expected += expected[i];
+        pooled_found += found[i];
+        if (pooled_expected >= 5) {
+            add(pooled_expected, pooled_found);
+            pooled_expected = pooled_found = 0;
+        }
+    }
+    if (pooled_found > pooled_expected + 10)
+        return 0;
+    return bins < 2
+        ? 1
+        : boost::math::cdf(boost::math::complement(boost::math::chi_squared(bins - 1), chi2));
 }
 
 }  // namespace farlight

@@ -4,6 +4,7 @@
 #include "server/render/image.h"
 
 #include <glm/glm.hpp>
+#include <vector>
 
 namespace farlight {
 
@@ -21,5 +22,9 @@ Image difference_of(const Image& a, Image b);
 
 /// Mean over pixels and channels of (x - r)^2 / (r^2 + 0.01).
 double relative_mse(const Image& image, const Image& reference);
+
+/// Probability of a chi-squared statistic this large or larger. Bins are pooled until each expects
+/// 5; of what no bin is expected to hold, 10 are put down to rounding.
+double chi_squared_p_value(const std::vector<double>& expected, const std::vector<double>& found);
 
 }  // namespace farlight
