@@ -68,13 +68,18 @@ void LiveScene::show(LoadedScene loaded)
 
 void LiveScene::prepare_programs(const RenderSettings& settings)
 {
-    FramePlan plan;
-    plan.settings = settings;
-    plan.scatters = shared_.look.scatters;
-    const DeclareFrame declare = [plan](FrameGraph& graph, const SceneInputs& inputs) {
-        build_frame(graph, FrameInputs{inputs, {}}, plan);
+    FramePlan moving;
+    moving.settings = settings;
+    moving.scatters = shared_.look.scatters;
+    FramePlan resting = moving;
+    resting.refine = true;
+    const auto declared = [](const FramePlan& plan) -> DeclareFrame {
+        return [plan](FrameGraph& graph, const SceneInputs& inputs) {
+            build_frame(graph, FrameInputs{inputs, {}}, plan);
+        };
     };
-    scene_programs_.prepare(effects_of(plan), declare, shared_.software);
+    scene_programs_.prepare(
+        effects_of(moving), declared(moving), declared(resting), shared_.software);
 }
 
 RendererDescription describe(const Context& context, const LiveScene& live)

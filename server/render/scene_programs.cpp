@@ -228,12 +228,13 @@ void ScenePrograms::remember(const Variant& variant)
     });
 }
 
-void ScenePrograms::prepare(EffectMask more, const DeclareFrame& declare, bool software)
+void ScenePrograms::prepare(
+    EffectMask more, const DeclareFrame& first, const DeclareFrame& all, bool software)
 {
     if (worker_ != nullptr)
-        ask_for(variant_of(scene_mask_ | more), declare);
+        ask_for(variant_of(scene_mask_ | more), first);
     const auto begun = std::chrono::steady_clock::now();
-    rehearse(programs_, declare, variant_of(EffectMask::general()).inputs, software);
+    rehearse(programs_, all, variant_of(EffectMask::general()).inputs, software);
     spdlog::info("general programs compiled in {:.0f} ms", milliseconds_since(begun));
 }
 

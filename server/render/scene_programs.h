@@ -40,9 +40,11 @@ public:
     /// stays valid until the next call.
     const Variant& choose(const EffectChoice& choice, EffectMask more, const DeclareFrame& declare);
 
-    /// Compiles the general programs of a frame, and lets the driver finish them where it does so
-    /// at the first dispatch; meanwhile the worker compiles the scene's own.
-    void prepare(EffectMask more, const DeclareFrame& declare, bool software);
+    /// Compiles the general programs of frame `all`, and lets the driver finish them where it does
+    /// so at the first dispatch; meanwhile the worker compiles the scene's own for frame `first`,
+    /// for which settings call for `more`.
+    void prepare(
+        EffectMask more, const DeclareFrame& first, const DeclareFrame& all, bool software);
     /// Waits until the worker is done with what it was asked for.
     void wait_for_worker();
 
