@@ -5,16 +5,21 @@
 
 namespace farlight {
 
+void set_sampler_of_texels(GLuint texture)
+{
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 GpuTexture::GpuTexture(const std::string& label, GLenum format, Extent extent)
     : format_(format)
     , extent_(extent)
 {
     glCreateTextures(GL_TEXTURE_2D, 1, &id_);
     glTextureStorage2D(id_, 1, format, extent.width, extent.height);
-    glTextureParameteri(id_, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(id_, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTextureParameteri(id_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(id_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    set_sampler_of_texels(id_);
     relabel(label);
     check_gl("allocating texture '" + label + "' of " + std::to_string(extent.width) + "x"
         + std::to_string(extent.height));

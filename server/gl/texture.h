@@ -8,6 +8,10 @@
 
 namespace farlight {
 
+/// Shaders fetch texels by number and filter them themselves. All our textures have one sampler
+/// state, because llvmpipe compiles a program once for each that it meets (sampler_slots.h).
+void set_sampler_of_texels(GLuint texture);
+
 class GpuTexture {
 public:
     /// Zero-filled. Throws GlError if the device has no room.

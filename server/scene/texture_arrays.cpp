@@ -2,6 +2,7 @@
 #include "server/scene/texture_arrays.h"
 
 #include "server/gl/gl_error.h"
+#include "server/gl/texture.h"
 
 namespace farlight {
 namespace {
@@ -14,8 +15,7 @@ GLuint storage(const std::string& label, const TextureArrayLayout& array)
         array.space == TexelSpace::kSrgb ? GL_SRGB8_ALPHA8 : GL_RGBA8,
         static_cast<GLsizei>(array.width), static_cast<GLsizei>(array.height),
         static_cast<GLsizei>(array.images.size()));
-    glTextureParameteri(id, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
-    glTextureParameteri(id, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    set_sampler_of_texels(id);
     glObjectLabel(GL_TEXTURE, id, -1, label.c_str());
     return id;
 }
