@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
+#include <utility>
 
 namespace farlight {
 namespace {
@@ -53,13 +55,40 @@ const MeshInstance* instance_of(const Object& object)
     return std::get_if<MeshInstance>(&object.shape);
 }
 
+bool morphs_with_time(const Scene& scene, std::uint32_t object)
+{
+    const auto& tracks = scene.animation.tracks;
+    return std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
+        return track.target == Track::Target::kMorphWeights && track.index == object;
+    });
+}
+
+/// The mesh as its targets leave it at these weights.
+Mesh settled(const Mesh& mesh, const std::vector<float>& weights)
+{
+    VertexPose pose = pose_vertices(mesh, weights, {}, glm::dmat4(1));
+    Mesh still = mesh;
+    still.positions = std::move(pose.positions);
+    still.normals = std::move(pose.normals);
+    still.tangents = std::move(pose.tangents);
+    still.morph_targets.clear();
+    return still;
+}
+
 }  // namespace
+
+bool is_skinned(const Scene& scene, const Object& object)
+{
+    const MeshInstance* instance = instance_of(object);
+    return instance != nullptr && instance->skin != kNone
+        && !scene.meshes[instance->mesh].joints.empty();
+}
 
 bool has_pose(const Scene& scene, const Object& object)
 {
     const MeshInstance* instance = instance_of(object);
     return instance != nullptr
-        && (instance->skin != kNone || !scene.meshes[instance->mesh].morph_targets.empty());
+        && (is_skinned(scene, object) || !scene.meshes[instance->mesh].morph_targets.empty());
 }
 
 bool changes_shape(const Scene& scene, std::uint32_t object, const std::vector<bool>& moving)
@@ -68,15 +97,37 @@ bool changes_shape(const Scene& scene, std::uint32_t object, const std::vector<b
     if (instance == nullptr)
         return false;
     const auto moves = [&](std::uint32_t joint) { return moving[joint]; };
-    if (instance->skin != kNone) {
+    if (is_skinned(scene, scene.objects[object])) {
         const auto& joints = scene.animation.skins[instance->skin].joints;
         if (std::any_of(joints.begin(), joints.end(), moves))
             return true;
     }
-    return std::any_of(
-        scene.animation.tracks.begin(), scene.animation.tracks.end(), [&](const Track& track) {
-            return track.target == Track::Target::kMorphWeights && track.index == object;
-        });
+    return morphs_with_time(scene, object);
+}
+
+void settle_morphs(Scene& scene)
+{
+    std::map<std::pair<std::uint32_t, std::vector<float>>, std::uint32_t> known;
+    std::vector<bool> shown(scene.meshes.size(), false);
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        auto* instance = std::get_if<MeshInstance>(&scene.objects[i].shape);
+        if (instance == nullptr)
+            continue;
+        if (scene.meshes[instance->mesh].morph_targets.empty() || morphs_with_time(scene, i)) {
+            shown[instance->mesh] = true;
+            continue;
+        }
+        const auto next = static_cast<std::uint32_t>(scene.meshes.size());
+        const auto [at, is_new] =
+            known.try_emplace({instance->mesh, instance->morph_weights}, next);
+        if (is_new)
+            scene.meshes.push_back(settled(scene.meshes[instance->mesh], instance->morph_weights));
+        instance->mesh = at->second;
+        instance->morph_weights.clear();
+    }
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        if (!shown[i] && !scene.meshes[i].morph_targets.empty())
+            scene.meshes[i] = Mesh{.name = scene.meshes[i].name};
 }
 
 std::vector<glm::mat4> skin_matrices(const Skin& skin, std::span<const glm::dmat4> world_from_node)

@@ -14,11 +14,18 @@ struct VertexPose {
     std::vector<glm::vec4> tangents;
 };
 
+/// Whether joints carry the object's vertices; its own node then does not (glTF).
+bool is_skinned(const Scene& scene, const Object& object);
+
 /// Whether the object's shape follows from more than its transform: a skin, or morph targets.
 bool has_pose(const Scene& scene, const Object& object);
 
 /// Whether that shape changes with time. `moving`: moving_nodes().
 bool changes_shape(const Scene& scene, std::uint32_t object, const std::vector<bool>& moving);
+
+/// Gives every object whose morph weights no track drives a mesh of the vertices that it has, so
+/// that it moves rigidly, if at all. Meshes that nothing shows any longer become empty.
+void settle_morphs(Scene& scene);
 
 /// world_from_mesh of each joint.
 std::vector<glm::mat4> skin_matrices(const Skin& skin, std::span<const glm::dmat4> world_from_node);

@@ -81,32 +81,12 @@ bool emits(const Scene& scene, const Object& object)
     return !is_black(scene.materials[object.material].emission);
 }
 
-/// Whether a track moves the node or one that carries it.
-bool is_moved(const Animation& animation, std::uint32_t node)
+/// "object 'name' DOES", of the object that the packer found to do it.
+Reason by_object(const Scene& scene, std::optional<std::uint32_t> object, const char* does)
 {
-    for (; node != kNone; node = animation.nodes[node].parent)
-        for (const Track& track : animation.tracks)
-            if (track.index == node
-                && (track.target == Track::Target::kTranslation
-                    || track.target == Track::Target::kRotation
-                    || track.target == Track::Target::kScale))
-                return true;
-    return false;
-}
-
-bool is_deformed(const Scene& scene, std::size_t object)
-{
-    const auto* instance = std::get_if<MeshInstance>(&scene.objects[object].shape);
-    if (instance == nullptr)
-        return false;
-    const auto& joints = instance->skin == kNone ? std::vector<std::uint32_t>{}
-                                                 : scene.animation.skins[instance->skin].joints;
-    return std::any_of(joints.begin(), joints.end(),
-               [&](std::uint32_t joint) { return is_moved(scene.animation, joint); })
-        || std::any_of(
-            scene.animation.tracks.begin(), scene.animation.tracks.end(), [&](const Track& track) {
-                return track.target == Track::Target::kMorphWeights && track.index == object;
-            });
+    if (!object)
+        return std::nullopt;
+    return "object " + quoted(scene.objects[*object].name) + " " + does;
 }
 
 /// What a texture says is held above the threshold, so a textured roughness is never sharp.
@@ -151,24 +131,20 @@ Reason shading_normals(const Scene& scene, const SceneContent& content)
 
 Reason instances(const Scene& scene, const SceneContent& content)
 {
-    return counted(scene, content, content.instances, "placements", [&](const Object& object) {
-        return is_moved(scene.animation, object.node) || mesh_of(scene, object) != nullptr;
-    });
+    if (!content.placed)
+        return std::nullopt;
+    return std::to_string(content.instances) + " placements, first "
+        + quoted(scene.objects[*content.placed].name);
 }
 
 Reason motion(const Scene& scene, const SceneContent& content)
 {
-    const Object* first = first_object(scene, content,
-        [&](const Object& object) { return is_moved(scene.animation, object.node); });
-    return first == nullptr ? Reason() : "object " + quoted(first->name) + " moves";
+    return by_object(scene, content.moving, "moves");
 }
 
 Reason deformation(const Scene& scene, const SceneContent& content)
 {
-    for (std::size_t i = 0; i < scene.objects.size(); ++i)
-        if (content.is_drawn(i) && is_deformed(scene, i))
-            return "object " + quoted(scene.objects[i].name) + " changes its shape";
-    return std::nullopt;
+    return by_object(scene, content.deforming, "changes its shape");
 }
 
 // ---------------------------------------------------------------- lights

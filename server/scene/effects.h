@@ -32,6 +32,10 @@ struct SceneContent {
     std::size_t emissive_triangles = 0;  ///< Of meshes, sampled as lights.
     std::size_t delta_lights = 0;  ///< Point, spot and directional lights ever on.
     std::size_t light_tree_nodes = 0;  ///< 0: lights are chosen by the alias table alone.
+    /// The first object that is an instance; that is one and moves; that has vertices that move.
+    std::optional<std::uint32_t> placed = {};
+    std::optional<std::uint32_t> moving = {};
+    std::optional<std::uint32_t> deforming = {};
     /// One an object, not 0 where something of it is left; empty: take every object as left.
     std::vector<std::uint8_t> drawn = {};
 

@@ -196,7 +196,7 @@ private:
         posed->positions = std::move(pose.positions);
         posed->normals = std::move(pose.normals);
         posed->tangents = std::move(pose.tangents);
-        if (instance.skin != kNone) {
+        if (is_skinned(scene_, object())) {
             const Skin& skin = scene_.animation.skins[instance.skin];
             const glm::dmat4 joint =
                 world_from_node_[skin.joints.front()] * skin.joint_from_mesh.front();
@@ -260,7 +260,8 @@ std::vector<Placement> placements_of(const Scene& scene)
     std::map<const Mesh*, std::size_t> shown;  // by objects at rest
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        const bool moves = object.node != kNone && moving[object.node];
+        const bool moves =
+            object.node != kNone && moving[object.node] && !is_skinned(scene, object);
         const bool round = std::holds_alternative<Sphere>(object.shape)
             || std::holds_alternative<Disk>(object.shape);
         const bool squeezed = round && object.node != kNone

@@ -1,6 +1,8 @@
-// Tracks first (they may switch something off for good), then materials, then what surrounds all.
+// Tracks first (they may switch something off for good), then shapes, then materials, then what
+// surrounds all.
 #include "server/scene/neutral.h"
 
+#include "server/scene/deform.h"
 #include "server/scene/material_response.h"
 #include "server/scene/texture_mips.h"
 
@@ -301,6 +303,7 @@ void drop_uniform_environment(Scene& scene)
 void drop_neutral(Scene& scene)
 {
     drop_constant_tracks(scene);
+    settle_morphs(scene);
     drop_white_colors(scene);
     const Materials simplified(scene);
     drop_uniform_environment(scene);

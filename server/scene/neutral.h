@@ -13,6 +13,7 @@ namespace farlight {
 ///   * vertex colours that are all white are gone
 ///   * tracks that never change anything are folded into what they drive, or gone; what is then
 ///     switched off for good has no intensity
+///   * morph targets whose weights never change are in the vertices, and gone
 ///   * a black or uniform environment map, a medium without cross section and a lens without
 ///     aperture are gone
 /// Before packing and detection; a second call changes nothing.

@@ -77,8 +77,18 @@ SceneContent content_of(const Scene& scene, const FlatScene& flat)
             content.drawn[disk.object] = 1;
     }
     content.instances = flat.instances.size();
-    for (const FlatInstance& instance : flat.instances)
+    const std::vector<bool> moving = moving_nodes(scene.animation);
+    for (const FlatInstance& instance : flat.instances) {
         content.drawn[instance.object] = 1;
+        const std::uint32_t node = scene.objects[instance.object].node;
+        if (!content.placed)
+            content.placed = instance.object;
+        if (!content.moving && node != kNone && moving[node])
+            content.moving = instance.object;
+    }
+    for (const std::uint32_t object : flat.deforming_objects)
+        if (!content.deforming && content.drawn[object] != 0)
+            content.deforming = object;
     return content;
 }
 

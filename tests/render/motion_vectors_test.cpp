@@ -158,7 +158,7 @@ protected:
         for (const auto& [object, c] : caught) {
             EXPECT_GT(c.seen, 20) << object;
             EXPECT_GT(c.camera, c.seen / 2) << object;
-            const bool rests = scene.objects[object].name == "floor";
+            const bool rests = scene.objects[object].name.starts_with("resting");
             EXPECT_GT(c.thing, rests ? -1 : c.seen / 2) << object;
         }
     }
@@ -207,6 +207,19 @@ TEST_F(MotionVectorsTest, OfAMorphAndItsCarrier)
 {
     const Scene scene = swelling_sphere(24, 16);
     expect_motion(scene, {swelling(scene.meshes[0], 0, scene.animation.nodes[0].local)});
+}
+
+/// What could deform and does not moves as what cannot, and a skin's node moves nothing.
+TEST_F(MotionVectorsTest, OfShapesAtRest)
+{
+    std::vector<NamedScene> scenes = resting_shapes();
+    for (std::size_t i = 0; i < 2; ++i) {
+        SCOPED_TRACE(scenes[i].what);
+        expect_motion(scenes[i].scene, {rigid(0, scenes[i].scene.animation.nodes[0].local)});
+    }
+    SCOPED_TRACE(scenes[2].what);
+    scenes[2].scene.objects[0].name = "resting bar";
+    expect_motion(scenes[2].scene, {stays});
 }
 
 /// Adds another scene's one object with its mesh, nodes, skins and tracks.
@@ -258,7 +271,7 @@ TEST_F(MotionVectorsTest, OfAllTogether)
     bar.animation.nodes[0].translation = {3.2, -2.2, 1};
     pasts.push_back(bending(bar.meshes[0], bar.animation.nodes[0].translation));
     add_object(scene, bar);
-    scene.objects.push_back({"floor", 0, Quad{{-9, -2.5, 4}, {18, 0, 0}, {0, 0, -12}}});
+    scene.objects.push_back({"resting floor", 0, Quad{{-9, -2.5, 4}, {18, 0, 0}, {0, 0, -12}}});
     pasts.emplace_back(stays);
     expect_motion(scene, pasts);
 }

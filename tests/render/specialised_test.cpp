@@ -1,157 +1,14 @@
-// A program with only the effects that a scene calls for gives the same bits as the one with all:
-// in every texture of every frame, histories and the picture included.
-#include "server/render/live_scene.h"
-#include "tests/support/gl_test.h"
+// A program with only the effects that a scene calls for gives the same bits as the one with all.
+#include "tests/render/same_bits.h"
+#include "tests/scene/plain_scene.h"
+#include "tests/support/moving_scenes.h"
+#include "tests/support/random_scene.h"
 #include "tests/support/shipped_scenes.h"
 
-#include <iomanip>
 #include <numeric>
-#include <random>
-#include <sstream>
 
 namespace farlight {
 namespace {
-
-constexpr int kFrames = 4;
-/// Of what moves: off its rest, and not in step with any key.
-constexpr double kFirstTime = 0.37;
-constexpr double kTimeStep = 0.083;
-
-/// The general programs are compiled once for all tests.
-ProgramCache& programs_of_all_tests()
-{
-    static ProgramCache programs;
-    return programs;
-}
-
-struct Texels {
-    std::string name;
-    Extent extent;
-    std::vector<float> values;  ///< 4 a texel; integers as their bits.
-};
-
-Texels texels_of(const std::string& name, const GpuTexture& texture)
-{
-    const Extent extent = texture.extent();
-    Texels texels{name, extent, {}};
-    texels.values.resize(4UL * static_cast<std::size_t>(extent.width * extent.height));
-    const bool integer = texture.format() == GL_RGBA32UI;
-    glGetTextureImage(texture.id(), 0, integer ? GL_RGBA_INTEGER : GL_RGBA,
-        integer ? GL_UNSIGNED_INT : GL_FLOAT, static_cast<GLsizei>(texels.values.size() * 4),
-        texels.values.data());
-    return texels;
-}
-
-/// A scene on the device that any mask may draw.
-class Subject {
-public:
-    explicit Subject(Scene scene)
-        : loaded_(load_onto_device(std::move(scene)))
-        , scene_programs_(programs_of_all_tests(), nullptr, nullptr, {})
-        , shared_{programs_of_all_tests(), scene_programs_, loaded_.look,
-              static_cast<std::uint32_t>(loaded_.gpu->light_count()), true}
-    {
-        shared_.gpu = loaded_.gpu.get();
-        shared_.keep_all = true;
-        scene_programs_.follow(loaded_.gpu);
-    }
-
-    EffectMask mask() const { return scene_programs_.scene_mask(); }
-
-    /// Everything that all frames wrote, to the picture as people see it, while the camera moves a
-    /// little and time passes.
-    std::vector<Texels> draw(RenderSettings settings, const EffectChoice& effects) const
-    {
-        settings.effects = effects;
-        View view(shared_);
-        RenderRequest request = linear_request(*loaded_.scene, {40, 24}, settings);
-        request.format = PixelFormat::kRgb8;
-        const double step = 0.02 * glm::length(request.camera.target - request.camera.position);
-        std::vector<Texels> all;
-        for (int frame = 0; frame < kFrames; ++frame) {
-            request.camera.position.x += step;
-            request.time = kFirstTime + kTimeStep * frame;
-            view.render(request);
-            for (const auto& [name, texture] : view.graph().written())
-                all.push_back(texels_of("frame " + std::to_string(frame) + " " + name, *texture));
-        }
-        return all;
-    }
-
-private:
-    LoadedScene loaded_;
-    ScenePrograms scene_programs_;
-    SharedScene shared_;
-};
-
-/// How many texels of the two differ in any bit, and the first that does; "" for none.
-std::string difference(const Texels& a, const Texels& b)
-{
-    std::size_t count = 0;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < a.values.size(); i += 4)
-        if (std::memcmp(&a.values[i], &b.values[i], 16) != 0 && count++ == 0)
-            first = i;
-    if (count == 0)
-        return "";
-    std::ostringstream text;
-    text << a.name << " differs in " << count << " of " << a.values.size() / 4 << " texels, first ("
-         << first / 4 % static_cast<std::size_t>(a.extent.width) << ", "
-         << first / 4 / static_cast<std::size_t>(a.extent.width) << "):" << std::setprecision(9);
-    for (const Texels* texels : {&a, &b})
-        for (std::size_t k = 0; k < 4; ++k)
-            text << (k == 0 ? "  (" : " ") << texels->values[first + k] << (k == 3 ? ")" : "");
-    return text.str();
-}
-
-/// Textures of the same name come in the same order; `more` may have names that `less` lacks.
-void expect_equal(
-    const std::vector<Texels>& less, const std::vector<Texels>& more, const std::string& what)
-{
-    std::size_t compared = 0;
-    auto next = more.begin();
-    for (const Texels& texels : less) {
-        next = std::find_if(
-            next, more.end(), [&](const Texels& other) { return other.name == texels.name; });
-        ASSERT_NE(next, more.end()) << what << ": no texture " << texels.name;
-        // What follows from a difference differs too.
-        ASSERT_EQ(difference(texels, *next), "") << what;
-        ++next;
-        ++compared;
-    }
-    EXPECT_GT(compared, 4U * kFrames) << what;
-}
-
-EffectMask random_superset(EffectMask mask, std::mt19937& random)
-{
-    std::vector<std::string_view> names = mask.names();
-    for (const std::string_view name : EffectMask::general().names())
-        if (random() % 2 == 0)
-            names.push_back(name);
-    return EffectMask::of(names);
-}
-
-/// `choices` against the general programs.
-void expect_as_general(const Subject& subject, const RenderSettings& settings,
-    const std::vector<EffectChoice>& choices, const std::string& what)
-{
-    const auto expected = subject.draw(settings, {EffectChoice::Kind::kGeneral, {}});
-    for (const EffectChoice& choice : choices)
-        expect_equal(subject.draw(settings, choice), expected,
-            what + " with " + (choice.mask.empty() ? "its own" : to_text(choice)));
-}
-
-EffectChoice list(EffectMask mask)
-{
-    return {EffectChoice::Kind::kList, mask};
-}
-
-RenderSettings averaging()
-{
-    RenderSettings settings;
-    settings.denoiser = Denoiser::kAccumulate;
-    return settings;
-}
 
 unsigned seed_of(const std::string& scene)
 {
@@ -218,6 +75,36 @@ TEST_F(GlTest, SpecialisedEqualsGeneralForManySamplesAtOnce)
     expect_as_general(subject, many, {list({})}, "cornell_box");
 }
 
+/// What changes its shape with time, might, or no longer does, each on something that moves.
+TEST_F(GlTest, SpecialisedEqualsGeneralWhereAShapeRests)
+{
+    for (const auto& [what, scene] : resting_shapes()) {
+        const Subject subject(scene);
+        EXPECT_FALSE(subject.mask().has("deformation")) << what;
+        expect_as_general(subject, {}, {list({})}, what);
+    }
+}
+
+/// Many effects at once in pictures of nothing in particular, with its own programs, and with more
+/// than it calls for.
+void expect_random_scenes_as_general(unsigned seed, int count, int superset_every)
+{
+    std::mt19937 random(seed);
+    for (int i = 0; i < count; ++i) {
+        std::string what;
+        const Subject subject(random_scene(random, what));
+        std::vector<EffectChoice> choices{list({})};
+        if (i % superset_every == 0)
+            choices.push_back(list(random_superset(subject.mask(), random)));
+        expect_as_general(subject, i % 2 == 0 ? RenderSettings{} : averaging(), choices, what);
+    }
+}
+
+TEST_F(GlTest, SpecialisedEqualsGeneralForRandomScenes)
+{
+    expect_random_scenes_as_general(2, 3, 3);
+}
+
 /// Minutes: run by ctest -L long.
 class SpecialisedLongTest : public SpecialisedTest { };
 
@@ -237,6 +124,13 @@ TEST_P(SpecialisedLongTest, EqualsTheGeneralProgramBitForBit)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SpecialisedLongTest, testing::ValuesIn(scene_names()),
     [](const auto& test) { return test.param; });
+
+class RandomScenesLongTest : public GlTest { };
+
+TEST_F(RandomScenesLongTest, EqualTheGeneralProgramBitForBit)
+{
+    expect_random_scenes_as_general(21, 25, 1);
+}
 
 /// Each effect compiled in for nothing.
 class LeaveOneInLongTest : public GlTest, public testing::WithParamInterface<std::string> { };

@@ -62,6 +62,25 @@ TEST(EffectsTest, TracksCount)
     EXPECT_TRUE(moving.has("FX_INSTANCES"));
 }
 
+/// Even where a scene says in a roundabout way that nothing changes its shape.
+TEST(EffectsTest, WhatIsPackedToDeformIsCalledFor)
+{
+    Scene scene = plain();
+    scene.meshes[0].morph_targets = {{{{0, 0, 1}, {0, 0, 0}, {0, 0, 0}}, {}}};
+    std::get<MeshInstance>(scene.objects[0].shape).morph_weights = {0};
+    scene.animation.tracks.push_back(moving_track());
+    for (const bool neutral : {false, true}) {
+        if (neutral)
+            drop_neutral(scene);
+        const PackedScene packed = pack_scene(scene);
+        const EffectMask mask = mask_of(active_effects(scene, packed.content));
+        EXPECT_EQ(mask.has("deformation"), !packed.moving->deforming().prev_vertices.empty());
+        EXPECT_EQ(mask.has("motion"), !packed.moving->prev_instances().empty());
+        EXPECT_EQ(mask.has("deformation"), !neutral);
+        EXPECT_EQ(mask.has("motion"), neutral);
+    }
+}
+
 TEST(EffectsTest, ReasonsNameTheFirstThingThatCallsForTheEffect)
 {
     Scene scene = plain();

@@ -110,6 +110,20 @@ std::vector<NeutralCase> neutral_cases()
                 s.animation.tracks.push_back(moving_track());
                 s.animation.tracks[0].values = {1, 2, 3, 1, 2, 3};
             }},
+        {"morph targets at rest",
+            [](Scene& s) {
+                s.meshes[0].morph_targets = {{{{0, 0, 1}, {0, 0, 0}, {0, 0, 0}}, {}}};
+                std::get<MeshInstance>(s.objects[0].shape).morph_weights = {0.5F};
+            }},
+        {"track on a skin's own node",
+            [](Scene& s) {
+                s.meshes[0].joints.assign(3, {});
+                s.meshes[0].weights.assign(3, {1, 0, 0, 0});
+                s.animation.nodes.push_back({.name = "bone"});
+                s.animation.skins.push_back({{1}, {glm::dmat4(1)}});
+                std::get<MeshInstance>(s.objects[0].shape).skin = 0;
+                s.animation.tracks.push_back(moving_track());
+            }},
         {"object without extent",
             [](Scene& s) {
                 Material gold{.name = "gold", .metallic = 1, .roughness = 0.2F};
@@ -170,6 +184,51 @@ TEST(Neutral, UniformTexturesAreFoldedIntoTheirConstants)
     EXPECT_EQ(scene.materials[0].albedo, glm::vec3(0.5F, 0, 0.5F));
     EXPECT_FLOAT_EQ(scene.materials[0].roughness, 0.1F);
     EXPECT_FLOAT_EQ(scene.materials[0].metallic, 0.5F);
+}
+
+Scene morphing(std::uint32_t objects)
+{
+    Scene scene = plain();
+    scene.meshes[0].morph_targets = {{{{0, 0, 2}, {0, 0, 0}, {0, 4, 0}}, {}}};
+    scene.objects.resize(objects, scene.objects[0]);
+    return scene;
+}
+
+MeshInstance& shape_of(Scene& scene, std::size_t object)
+{
+    return std::get<MeshInstance>(scene.objects[object].shape);
+}
+
+TEST(Neutral, MorphsAtRestAreInTheVerticesAndSharedByThoseOfTheSameWeights)
+{
+    Scene scene = morphing(4);
+    shape_of(scene, 1).morph_weights = shape_of(scene, 2).morph_weights = {0.5F};
+    shape_of(scene, 3).morph_weights = {0.25F};
+    drop_neutral(scene);
+    EXPECT_EQ(shape_of(scene, 1).mesh, shape_of(scene, 2).mesh);
+    EXPECT_NE(shape_of(scene, 1).mesh, shape_of(scene, 3).mesh);
+    EXPECT_TRUE(scene.meshes[0].positions.empty()) << "what nothing shows is kept";
+    const std::vector<glm::vec3> none = plain().meshes[0].positions;
+    const std::vector<glm::vec3> half{{0, 0, 1}, {1, 0, 0}, {0, 3, 0}};
+    EXPECT_EQ(scene.meshes[shape_of(scene, 0).mesh].positions, none);
+    EXPECT_EQ(scene.meshes[shape_of(scene, 1).mesh].positions, half);
+    for (const Mesh& mesh : scene.meshes)
+        EXPECT_TRUE(mesh.morph_targets.empty());
+}
+
+TEST(Neutral, AMorphThatATrackDrivesStays)
+{
+    Scene scene = morphing(2);
+    shape_of(scene, 0).morph_weights = shape_of(scene, 1).morph_weights = {0.5F};
+    scene.animation.tracks.push_back(moving_track());
+    scene.animation.tracks[0].target = Track::Target::kMorphWeights;
+    scene.animation.tracks[0].values = {0, 1};
+    scene.animation.tracks[0].index = 1;
+    drop_neutral(scene);
+    EXPECT_EQ(shape_of(scene, 1).mesh, 0U);
+    EXPECT_EQ(scene.meshes[0].morph_targets.size(), 1U);
+    EXPECT_EQ(scene.meshes[shape_of(scene, 0).mesh].positions[2], glm::vec3(0, 3, 0));
+    EXPECT_TRUE(mask_of_scene(scene).has("deformation"));
 }
 
 }  // namespace

@@ -61,9 +61,10 @@ std::vector<EffectPair> pairs_of_shapes()
 {
     const auto ball_on_node = [](const glm::dvec3& scale) {
         return [=](Scene& s) {
+            const auto node = static_cast<std::uint32_t>(s.animation.nodes.size());
             s.animation.nodes.push_back({.name = "holder"});
             s.animation.nodes.back().scale = scale;
-            s.objects.push_back({.name = "ball", .shape = Sphere{}, .node = 1});
+            s.objects.push_back({.name = "ball", .shape = Sphere{}, .node = node});
         };
     };
     return {
@@ -77,21 +78,22 @@ std::vector<EffectPair> pairs_of_shapes()
             {"uniform normals", "buffer normals"}},
         {"instances", ball_on_node(glm::dvec3(1)),
             // What no longer is a sphere in the world is one in a space of its own.
-            [](Scene& s) { s.animation.nodes[1].scale.x = 2; },
+            [](Scene& s) { s.animation.nodes.back().scale.x = 2; },
             {"uniform instances", "buffer instances"}},
         {"motion", ball_on_node({1, 2, 1}),
             [](Scene& s) {
                 s.animation.tracks.push_back(moving_track());
-                s.animation.tracks[0].index = 1;
+                s.animation.tracks.back().index =
+                    static_cast<std::uint32_t>(s.animation.nodes.size()) - 1;
             },
             {"uniform prev_instances", "buffer prev_instances"}},
         {"deformation", change_nothing,
             [](Scene& s) {
-                s.meshes[0].morph_targets.push_back({{{0, 0, 1}, {0, 0, 0}, {0, 0, 0}}, {}});
+                s.meshes[0].morph_targets = {{{{0, 0, 1}, {0, 0, 0}, {0, 0, 0}}, {}}};
                 std::get<MeshInstance>(s.objects[0].shape).morph_weights = {0};
                 s.animation.tracks.push_back(moving_track());
-                s.animation.tracks[0].target = Track::Target::kMorphWeights;
-                s.animation.tracks[0].values = {0, 1};
+                s.animation.tracks.back().target = Track::Target::kMorphWeights;
+                s.animation.tracks.back().values = {0, 1};
             },
             {"uniform prev_vertices", "buffer prev_vertices"}},
     };

@@ -85,4 +85,22 @@ Scene swelling_sphere(int around, int along)
     return scene;
 }
 
+std::vector<NamedScene> resting_shapes()
+{
+    Scene morph = swelling_sphere(24, 16);
+    auto& tracks = morph.animation.tracks;
+    tracks.erase(tracks.begin());
+    std::get<MeshInstance>(morph.objects[0].shape).morph_weights = {kRestingWeight};
+    Scene held = morph;
+    held.animation.tracks.push_back(
+        track(Track::Target::kMorphWeights, 0, {kRestingWeight, kRestingWeight}));
+    std::get<MeshInstance>(held.objects[0].shape).morph_weights = {0};
+    Scene skin = bending_bar(24, 16);
+    skin.animation.tracks.clear();
+    hang_on_nodes(
+        skin, [](std::size_t) { return glm::dmat4(1); }, true);
+    return {{"a morph at rest", morph}, {"a morph under a constant track", held},
+        {"a skin at rest", skin}};
+}
+
 }  // namespace farlight

@@ -4,6 +4,7 @@
 #include "server/scene/scene.h"
 
 #include <functional>
+#include <vector>
 
 namespace farlight {
 
@@ -19,5 +20,17 @@ Scene bending_bar(int around, int along);
 /// A bumpy sphere whose morph target stretches it along x and y; its weight goes from 0 to 1 in one
 /// second. Carried by a node that moves.
 Scene swelling_sphere(int around, int along);
+
+struct NamedScene {
+    const char* what;
+    Scene scene;
+};
+
+constexpr float kRestingWeight = 0.6F;
+
+/// Meshes with morph targets or a skin whose shape never changes, each on a node that moves: a
+/// morph at kRestingWeight, one under a track that never changes, a skin (which its node does not
+/// carry).
+std::vector<NamedScene> resting_shapes();
 
 }  // namespace farlight
