@@ -41,8 +41,10 @@ struct PassTime {
 /// One drawn frame and what is known about it.
 struct RenderedFrame {
     Image image;
-    std::vector<PassTime> pass_times;  ///< In execution order. GPU time, or host time on llvmpipe.
-    double trace_ms = 0;  ///< Sum of the passes up to and including path_trace.
+    /// In execution order. GPU time, or host time on llvmpipe and of "pose": bringing the scene's
+    /// moving parts to this frame's time.
+    std::vector<PassTime> pass_times;
+    double trace_ms = 0;  ///< Sum of the passes up to and including path_trace, and of posing.
     double denoise_ms = 0;  ///< Sum of the passes after it.
     std::uint32_t accumulated_samples =
         0;  ///< Samples a pixel since the camera or a setting last changed.

@@ -4,6 +4,8 @@
 #include "server/render/camera.h"
 #include "server/render/frame.h"
 
+#include <chrono>
+
 namespace farlight {
 namespace {
 
@@ -66,12 +68,17 @@ void View::follow(const RenderRequest& request)
     key_ = key;
 }
 
-/// The scene as it is in this frame and was in the last.
-void View::pose(double time)
+/// The scene as it is in this frame and was in the last; the milliseconds that took, 0 where
+/// nothing has moved.
+double View::pose(double time)
 {
-    if (moves())
-        scene_.gpu->pose(time, has_history_ ? prev_time_ : time);
+    const auto begun = std::chrono::steady_clock::now();
+    const bool posed = moves() && scene_.gpu->pose(time, has_history_ ? prev_time_ : time);
     prev_time_ = time;
+    return posed
+        ? std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun)
+              .count()
+        : 0;
 }
 
 void View::upload_constants(const RenderRequest& request)
@@ -110,7 +117,7 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
 void View::begin(const RenderRequest& request)
 {
     follow(request);
-    pose(moment_shown(request.time));
+    const double pose_ms = pose(moment_shown(request.time));
     upload_constants(request);
     if (!has_history_)
         graph_.forget_histories();
@@ -136,6 +143,9 @@ void View::begin(const RenderRequest& request)
     readback_.begin(graph_.texture(result));
 
     frame_ = RenderedFrame{};
+    if (pose_ms > 0)
+        frame_.pass_times.push_back({"pose", pose_ms});
+    frame_.trace_ms = pose_ms;
     frame_.time = moment_shown(request.time);
     frame_.moves = moves() && frame_.time >= request.time;
     frame_.history_reset = !has_history_;

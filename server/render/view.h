@@ -71,7 +71,7 @@ private:
     /// What of `time` can be seen [s].
     double moment_shown(double time) const { return moves() ? scene_.gpu->moment_shown(time) : 0; }
     void follow(const RenderRequest& request);
-    void pose(double time);
+    double pose(double time);
     void upload_constants(const RenderRequest& request);
     FrameInputs inputs_of(const RenderRequest& request) const;
 

@@ -49,10 +49,10 @@ GpuScene::GpuScene(const Scene& scene, const DeviceLimits& limits) : scene_(scen
         update_lights();
 }
 
-void GpuScene::pose(double time, double prev_time)
+bool GpuScene::pose(double time, double prev_time)
 {
     if (scene_.animation.empty())
-        return;
+        return false;
     const MovingScene::Changes changes = moving_->pose(time, prev_time);
     time_ = time;
     if (changes.now)
@@ -61,6 +61,7 @@ void GpuScene::pose(double time, double prev_time)
         update("prev_instances", moving_->prev_instances());
         update("prev_vertices", moving_->deforming().prev_vertices);
     }
+    return changes.now || changes.previous;
 }
 
 void GpuScene::update_now()

@@ -27,8 +27,8 @@ public:
     explicit GpuScene(const Scene& scene, const DeviceLimits& limits = device_limits());
 
     /// Brings what moves to `time` and its past to `prev_time` [s]; costs nothing when neither has
-    /// changed. Frames that are drawn after it see it, frames before it do not.
-    void pose(double time, double prev_time);
+    /// changed: false. Frames that are drawn after it see it, frames before it do not.
+    bool pose(double time, double prev_time);
     /// Whether anything depends on time.
     bool moves() const { return !scene_.animation.empty(); }
     double moment_shown(double time) const

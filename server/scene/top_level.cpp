@@ -46,6 +46,11 @@ double center(const TopLevelEntry& entry, int axis)
     return 0.5 * (static_cast<double>(entry.bounds.lower[axis]) + entry.bounds.upper[axis]);
 }
 
+glm::dvec3 center(const TopLevelEntry& entry)
+{
+    return 0.5 * (glm::dvec3(entry.bounds.lower) + glm::dvec3(entry.bounds.upper));
+}
+
 struct Span {
     int axis = 0;
     double lower = 0;
@@ -55,15 +60,16 @@ struct Span {
 /// The axis along which the centers spread most.
 Span widest_span(Entries entries)
 {
-    Span widest;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto [low, high] = std::minmax_element(entries.begin(), entries.end(),
-            [&](const auto& a, const auto& b) { return center(a, axis) < center(b, axis); });
-        const Span span{axis, center(*low, axis), center(*high, axis)};
-        if (axis == 0 || span.upper - span.lower > widest.upper - widest.lower)
-            widest = span;
+    glm::dvec3 lower(std::numeric_limits<double>::infinity());
+    glm::dvec3 upper = -lower;
+    for (const TopLevelEntry& entry : entries) {
+        lower = glm::min(lower, center(entry));
+        upper = glm::max(upper, center(entry));
     }
-    return widest;
+    const glm::dvec3 extent = upper - lower;
+    int axis = extent.y > extent.x ? 1 : 0;
+    axis = extent.z > extent[axis] ? 2 : axis;
+    return {axis, lower[axis], upper[axis]};
 }
 
 /// Size of the first part after halving by count.
@@ -92,9 +98,10 @@ std::size_t split_by_area(Entries entries)
     const Span span = widest_span(entries);
     if (!(span.upper > span.lower))
         return split_at_median(entries);
+    const double bins_per_metre = kBins / (span.upper - span.lower);
     const auto bin_of = [&](const TopLevelEntry& entry) {
-        const double at = (center(entry, span.axis) - span.lower) / (span.upper - span.lower);
-        return static_cast<std::size_t>(std::min(static_cast<int>(at * kBins), kBins - 1));
+        const double at = (center(entry, span.axis) - span.lower) * bins_per_metre;
+        return static_cast<std::size_t>(std::min(static_cast<int>(at), kBins - 1));
     };
     std::array<Bin, kBins> bins;
     for (const TopLevelEntry& entry : entries)
@@ -130,26 +137,36 @@ int balanced_stack(std::size_t entries)
 
 struct Parts {
     std::array<Entries, kBvhWidth> entries;
+    std::array<PrimitiveBounds, kBvhWidth> bounds{};
+    std::array<double, kBvhWidth> gains{};  ///< From splitting each once more.
     std::size_t count = 0;
+
+    std::size_t most_to_gain() const
+    {
+        const auto end = gains.begin() + static_cast<std::ptrdiff_t>(count);
+        return static_cast<std::size_t>(std::max_element(gains.begin(), end) - gains.begin());
+    }
 };
 
 /// In up to four parts, always splitting the one with the most to gain.
 template <typename Split> Parts split(Entries entries, const Split& split_once, bool by_count)
 {
-    Parts parts{{entries}, 1};
-    const auto gain = [&](Entries part) {
+    Parts parts;
+    const auto set = [&](std::size_t at, Entries part) {
+        parts.entries[at] = part;
+        parts.bounds[at] = bounds_of(part);
         const double count = part.size() < 2 ? 0 : static_cast<double>(part.size());
-        return by_count ? count : count * (half_area(bounds_of(part)) + 1e-300);
+        parts.gains[at] = by_count ? count : count * (half_area(parts.bounds[at]) + 1e-300);
     };
+    set(parts.count++, entries);
     while (parts.count < kBvhWidth) {
-        auto* largest = std::max_element(parts.entries.begin(),
-            parts.entries.begin() + static_cast<std::ptrdiff_t>(parts.count),
-            [&](Entries a, Entries b) { return gain(a) < gain(b); });
-        if (largest->size() < 2)
+        const std::size_t largest = parts.most_to_gain();
+        const Entries part = parts.entries[largest];
+        if (part.size() < 2)
             break;
-        const std::size_t first = split_once(*largest);
-        parts.entries[parts.count++] = largest->subspan(first);
-        *largest = largest->first(first);
+        const std::size_t first = split_once(part);
+        set(parts.count++, part.subspan(first));
+        set(largest, part.first(first));
     }
     return parts;
 }
@@ -172,7 +189,7 @@ public:
         used_ += BVH_NODE_TEXELS;
         for (std::size_t i = 0; i < kBvhWidth; ++i) {
             const bool there = i < parts.count && !parts.entries[i].empty();
-            set_child_bounds(nodes_, at, i, there ? bounds_of(parts.entries[i]) : kNowhereBounds);
+            set_child_bounds(nodes_, at, i, there ? parts.bounds[i] : kNowhereBounds);
             nodes_[at + 6][static_cast<int>(i)] = !there ? BVH_NO_CHILD
                 : parts.entries[i].size() == 1
                 ? parts.entries[i].front().word

@@ -170,6 +170,27 @@ TEST_F(GlTest, PausedThingsHaveExactlyNoMotion)
     }
 }
 
+/// What it takes to pose the scene is told, as a pass, in frames that did.
+TEST_F(GlTest, PosingIsTimedWhereSomethingHasMoved)
+{
+    const TestScene on_device(bending_bar(12, 8));
+    View view(on_device.shared);
+    RenderRequest request = linear_request(on_device.scene, {8, 8}, {});
+    const auto poses = [&](double time) {
+        request.time = time;
+        const RenderedFrame frame = view.render(request);
+        double sum = 0;
+        for (const PassTime& pass : frame.pass_times)
+            if (pass.pass == "pose" || pass.pass == "gbuffer" || pass.pass == "path_trace")
+                sum += pass.milliseconds;
+        EXPECT_DOUBLE_EQ(frame.trace_ms, sum);
+        return frame.pass_times.front().pass == "pose";
+    };
+    EXPECT_TRUE(poses(0.3));
+    EXPECT_FALSE(poses(0.3));
+    EXPECT_TRUE(poses(0.4));
+}
+
 /// A frame depends on its time and the last frame's, not on what was drawn before.
 TEST_F(GlTest, PosesDependOnTimeAlone)
 {
