@@ -51,6 +51,18 @@ void print_memory(const char* of, const std::vector<protocol::MemoryUse>& uses)
             "  %-24s %12llu\n", use.name.c_str(), static_cast<unsigned long long>(use.bytes));
 }
 
+void print_texture_memory(const std::vector<protocol::MemoryUse>& uses)
+{
+    std::uint64_t sum = 0;
+    int arrays = 0;
+    for (const auto& use : uses)
+        if (use.name.starts_with("texture_array_"))
+            sum += use.bytes, ++arrays;
+    if (arrays > 0)
+        std::printf("textures  %d arrays with their mip levels, %llu of these bytes\n", arrays,
+            static_cast<unsigned long long>(sum));
+}
+
 /// What one frame with default settings was drawn with.
 void print_inspection(const protocol::Inspection& inspection)
 {
@@ -64,6 +76,7 @@ void print_inspection(const protocol::Inspection& inspection)
               << "passes    " << join(inspection.passes) << "\n"
               << std::flush;
     print_memory("of the scene", inspection.scene_memory);
+    print_texture_memory(inspection.scene_memory);
     print_memory("of a picture", inspection.view_memory);
     std::fflush(stdout);
 }

@@ -83,6 +83,8 @@ TEST_F(CommandTest, InfoSaysWhatTheServerIs)
     EXPECT_THAT(text.out, HasSubstr("program   fog, lens"));
     EXPECT_THAT(text.out, HasSubstr("constants BVH_STACK_SIZE 9\n"));
     EXPECT_THAT(text.out, HasSubstr("bvh_nodes"));
+    EXPECT_THAT(
+        text.out, HasSubstr("textures  2 arrays with their mip levels, 100 of these bytes\n"));
     const Outcome json = farlight("info --json" + url);
     EXPECT_EQ(nlohmann::json::parse(json.out)["scene"]["name"], "Fake");
     EXPECT_EQ(nlohmann::json::parse(json.out)["inspection"]["view_memory"][0]["bytes"], 2048);

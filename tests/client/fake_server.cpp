@@ -218,7 +218,8 @@ void serve_lockstep(FakePeer& peer, const FakeRenderer& renderer)
                 .program = {"fog", "lens"},
                 .constants = {{"BVH_STACK_SIZE", 9}},
                 .passes = {"path_trace"},
-                .scene_memory = {{"bvh_nodes", 1024}},
+                .scene_memory = {{"bvh_nodes", 1024}, {"texture_array_0", 40},
+                    {"texture_array_1", 60}},
                 .view_memory = {{"gbuffer", 2048}},
                 .compile_ms = 250});
         } else if (std::holds_alternative<ClientBye>(message)) {
