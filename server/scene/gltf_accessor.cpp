@@ -92,9 +92,23 @@ const unsigned char* view_bytes(const GltfContainer& gltf, const Json& part)
         + part.value("byteOffset", std::size_t(0));
 }
 
+void check_places(
+    const std::vector<std::uint32_t>& places, std::size_t count, const ScenePlace& place)
+{
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const std::string found =
+            "index " + std::to_string(places[i]) + " as element " + std::to_string(i);
+        if (places[i] >= count)
+            refuse(place, found, "less than " + std::to_string(count) + ", the accessor's count");
+        if (i > 0 && places[i] <= places[i - 1])
+            refuse(place, found + " after " + std::to_string(places[i - 1]),
+                "indices that strictly increase");
+    }
+}
+
 template <typename Element>
-void overlay_sparse(
-    const GltfContainer& gltf, const Json& sparse, Source source, std::vector<Element>& out)
+void overlay_sparse(const GltfContainer& gltf, const Json& sparse, Source source,
+    const ScenePlace& place, std::vector<Element>& out)
 {
     const auto count = sparse["count"].get<std::size_t>();
     const int index_type = sparse["indices"]["componentType"].get<int>();
@@ -102,13 +116,13 @@ void overlay_sparse(
     const ElementLayout scalar = element_layout("SCALAR", index_type);
     read_all(Source{view_bytes(gltf, sparse["indices"]), scalar.size, scalar, index_type, false},
         places);
+    check_places(places, out.size(), place / "indices");
     std::vector<Element> values(count);
     source.bytes = view_bytes(gltf, sparse["values"]);
     source.stride = source.layout.size;
     read_all(source, values);
     for (std::size_t i = 0; i < count; ++i)
-        if (places[i] < out.size())
-            out[places[i]] = values[i];
+        out[places[i]] = values[i];
 }
 
 }  // namespace
@@ -135,7 +149,8 @@ std::vector<Element> read_accessor(const GltfContainer& gltf, const Json& index)
         read_all(source, out);
     }
     if (accessor.contains("sparse"))
-        overlay_sparse(gltf, accessor["sparse"], source, out);
+        overlay_sparse(gltf, accessor["sparse"], source,
+            gltf.root / "accessors" / index.get<std::size_t>() / "sparse", out);
     return out;
 }
 
