@@ -19,4 +19,11 @@ inline double nearest_target(const glm::dvec3& position, const glm::dvec3& targe
         * std::max(glm::length(position), glm::length(target));
 }
 
+/// From a camera to a target that is `distance` [m] off by what the scene says. What is a point,
+/// or so small that squares of its size vanish, is looked at from 1 m.
+inline double usable_distance(double distance)
+{
+    return distance >= static_cast<double>(std::numeric_limits<float>::min()) ? distance : 1;
+}
+
 }  // namespace farlight

@@ -19,7 +19,7 @@ std::optional<CameraPose> gltf_camera_pose(const nlohmann::json& json,
     const double ahead = glm::dot(bounds.center() - position, view);
     const double nearest = 2 * nearest_target(position, position);
     const double distance =
-        ahead > nearest ? ahead : std::max(bounds.radius(), glm::length(position));
+        usable_distance(ahead > nearest ? ahead : std::max(bounds.radius(), glm::length(position)));
     const double wanted_fov = glm::degrees(json["perspective"]["yfov"].get<double>());
     const double fov = std::clamp(wanted_fov, kNarrowestFov, kWidestFov);
     if (fov != wanted_fov)

@@ -39,7 +39,8 @@ CameraPose framing_camera(const Bounds& bounds)
     camera.vertical_fov_degrees = 45;
     const double half_angle = 0.5 * glm::radians(camera.vertical_fov_degrees);
     const double fits = bounds.radius() / std::sin(half_angle);  // the sphere, and no more
-    const double distance = std::max(fits, 2 * nearest_target(bounds.center(), bounds.center()));
+    const double distance =
+        usable_distance(std::max(fits, 2 * nearest_target(bounds.center(), bounds.center())));
     // Three-quarter view: 32 degrees to the right of +z, 17 degrees up.
     const glm::dvec3 direction = glm::normalize(glm::dvec3(0.6, 0.35, 0.95));
     camera.target = bounds.center();
