@@ -4,7 +4,9 @@
 #include "server/scene/gltf_component.h"
 #include "server/scene/gltf_meshopt.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <set>
 
 namespace farlight {
 
@@ -12,8 +14,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-// An accessor without a buffer view is all zeros: its count is backed by no bytes of the file.
-constexpr std::uint64_t kMostZeros = 1U << 24U;
+/// An accessor without a buffer view is all zeros: no bytes of the file back its count. Sparse ones
+/// among them have an element for each vertex of a mesh, and no coder spends less than a bit on
+/// that: so any file may have a few, and a large one as many as its buffers have bits.
+constexpr std::uint64_t kZerosOfAnyFile = 1U << 16U;
+constexpr std::uint64_t kZerosOfAByte = 8;
+
+/// Of what Draco unpacks, which holds the count to its bytes before it is used.
+constexpr std::uint64_t kMostUnpacked = 1U << 24U;
 
 std::uint64_t number(const Json& object, const char* key, std::uint64_t fallback = 0)
 {
@@ -29,7 +37,17 @@ std::uint64_t element_size(const Json& accessor)
 
 class Checker {
 public:
-    explicit Checker(const GltfContainer& gltf) : gltf_(gltf), root_(gltf.root) { }
+    explicit Checker(const GltfContainer& gltf) : gltf_(gltf), root_(gltf.root)
+    {
+        std::uint64_t bytes = 0;
+        for (const ByteSpan& buffer : gltf.buffers)
+            bytes += buffer.size();
+        most_zeros_ = std::max(kZerosOfAnyFile, kZerosOfAByte * bytes);
+        for (const Json& mesh : gltf.list("meshes"))
+            for (const Json& primitive : mesh["primitives"])
+                if (gltf_extension(primitive, "KHR_draco_mesh_compression") != nullptr)
+                    add_unpacked(primitive);
+    }
 
     void check() const
     {
@@ -44,6 +62,17 @@ public:
     }
 
 private:
+    void add_unpacked(const Json& primitive)
+    {
+        const auto add = [&](const Json& accessor) {
+            unpacked_.insert((root_ / "accessors" / accessor.get<std::size_t>()).pointer);
+        };
+        for (const Json& accessor : primitive["attributes"])
+            add(accessor);
+        if (primitive.contains("indices"))
+            add(primitive["indices"]);
+    }
+
     using Check = void (Checker::*)(const Json&, const ScenePlace&) const;
 
     void each(const char* name, Check check_one) const
@@ -83,6 +112,8 @@ private:
 
     const GltfContainer& gltf_;
     ScenePlace root_;
+    std::uint64_t most_zeros_ = 0;  // elements without a buffer view
+    std::set<std::string> unpacked_;  // accessors that Draco has the bytes of, by pointer
 };
 
 /// Bytes that lie `stride` apart, `count` of `size` each, from byteOffset in a view of `length`.
@@ -148,9 +179,11 @@ void Checker::check_accessor(const Json& accessor, const ScenePlace& place) cons
         check_range(
             {number(accessor, "byteOffset"), count, stride, size, number(view, "byteLength")},
             place);
-    } else if (count > kMostZeros) {
-        refuse(place / "count", std::to_string(count),
-            "at most " + std::to_string(kMostZeros) + " without a bufferView");
+    } else {
+        const std::uint64_t most = unpacked_.contains(place.pointer) ? kMostUnpacked : most_zeros_;
+        if (count > most)
+            refuse(place / "count", std::to_string(count),
+                "at most " + std::to_string(most) + " without a bufferView in a file of this size");
     }
     if (accessor.contains("sparse"))
         check_sparse(accessor, place / "sparse");

@@ -71,6 +71,11 @@ void Reader::read_objects()
     GltfObjects objects(gltf_, rig_, scene());
     for (const GltfNode& node : tree_.nodes)
         objects.add(node);
+    if (scene().objects.empty() && objects.flat_instances() > 0)
+        refuse(root_ / "scenes" / index_ / "nodes",
+            std::to_string(objects.flat_instances())
+                + " objects, all left out because a scale of 0 makes them flat",
+            "at least one that is not");
     if (scene().objects.empty())
         refuse(root_ / "scenes", "no mesh in the scene's nodes", "at least one");
     read_gltf_animations(gltf_, rig_, objects.by_node(), scene());

@@ -4,6 +4,7 @@
 #include "server/scene/gltf_draco.h"
 #include "server/scene/gltf_material.h"
 #include "server/scene/gltf_mesh.h"
+#include "server/scene/gltf_strokes.h"
 #include "server/scene/mesh_tangents.h"
 
 #include <algorithm>
@@ -14,6 +15,10 @@ namespace farlight {
 namespace {
 
 using Json = nlohmann::json;
+
+/// Of all points and lines of a file. Each takes some 200 bytes here and again as many on the
+/// device: 3 GiB, while their file may be of a hundredth of that.
+constexpr std::uint64_t kMostStrokeTriangles = 1U << 24U;
 
 /// False where a float cannot tell the matrix from one without inverse.
 bool keeps_volume(const glm::dmat4& matrix)
@@ -128,11 +133,30 @@ const std::vector<GltfObjects::Part>& GltfObjects::parts_of(std::size_t mesh)
     if (!is_new)
         return entry->second;
     const Json& found = gltf_.list("meshes")[mesh];
-    for (std::size_t i = 0; i < found["primitives"].size(); ++i) {
-        strokes_ += has_strokes(found["primitives"][i]) ? 1 : 0;
-        entry->second.push_back(read_part(found, i, gltf_.root / "meshes" / mesh));
-    }
+    const Json& primitives = found["primitives"];
+    const ScenePlace place = gltf_.root / "meshes" / mesh;
+    for (std::size_t i = 0; i < primitives.size(); ++i)  // all, before any of them is made
+        if (has_strokes(primitives[i]))
+            count_strokes(primitives[i], place / "primitives" / i);
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        entry->second.push_back(read_part(found, i, place));
     return entry->second;
+}
+
+void GltfObjects::count_strokes(const Json& primitive, const ScenePlace& place)
+{
+    const Json& corners =
+        primitive.contains("indices") ? primitive["indices"] : primitive["attributes"]["POSITION"];
+    const auto count =
+        gltf_.list("accessors")[corners.get<std::size_t>()]["count"].get<std::uint64_t>();
+    const std::uint64_t triangles = triangles_of_strokes(count, primitive["mode"].get<int>());
+    ++strokes_;
+    stroke_triangles_ += triangles;
+    if (stroke_triangles_ > kMostStrokeTriangles)
+        refuse(place,
+            "points or lines that take " + std::to_string(triangles) + " triangles, "
+                + std::to_string(stroke_triangles_) + " with those before",
+            "at most " + std::to_string(kMostStrokeTriangles) + " in a file");
 }
 
 GltfObjects::Part GltfObjects::read_part(

@@ -17,6 +17,8 @@ public:
     void add(const GltfNode& node);
 
     const ObjectsOfNode& by_node() const { return by_node_; }
+    /// Objects left out because their transform has no volume.
+    std::size_t flat_instances() const { return flat_instances_; }
     /// What was left out or repaired.
     void add_notes() const;
 
@@ -29,6 +31,7 @@ private:
     };
 
     const std::vector<Part>& parts_of(std::size_t mesh);
+    void count_strokes(const nlohmann::json& primitive, const ScenePlace& place);
     Part read_part(const nlohmann::json& mesh, std::size_t primitive, const ScenePlace& place);
     std::optional<MeshInstance> placed(const GltfNode& node, const Part& part);
     void attach_skin(const GltfNode& node, const Part& part, MeshInstance& instance);
@@ -44,6 +47,7 @@ private:
     ObjectsOfNode by_node_;
     MeshRepairs repairs_;
     std::size_t strokes_ = 0;  // primitives of points or lines
+    std::uint64_t stroke_triangles_ = 0;  // that they become
     std::size_t flat_instances_ = 0;  // whose transform has no volume
 };
 

@@ -5,6 +5,7 @@
 #include "server/scene/mesh_repair.h"
 #include "server/scene/mesh_vertices.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 
@@ -124,6 +125,15 @@ private:
 };
 
 }  // namespace
+
+std::uint64_t triangles_of_strokes(std::uint64_t corners, int mode)
+{
+    constexpr std::uint64_t kOfOne = 8;  // an octahedron's, and a prism's
+    const std::uint64_t strokes = mode == kLines ? corners / 2
+        : mode == kPoints || mode == kLineLoop   ? corners
+                                                 : corners - std::min<std::uint64_t>(corners, 1);
+    return kOfOne * strokes;
+}
 
 Mesh strokes_as_solids(const Mesh& vertices, const std::vector<std::uint32_t>& corners, int mode)
 {
