@@ -4,6 +4,7 @@
 #include "server/scene/albedo_tables.h"
 #include "server/scene/bvh.h"
 #include "server/scene/materials.h"
+#include "server/scene/scene_error.h"
 #include "shaders/shared/scene_layout.h"
 
 #include <algorithm>
@@ -186,9 +187,7 @@ private:
     std::vector<TreePlace> places_;
 };
 
-}  // namespace
-
-PackedScene pack_scene(const Scene& scene, const TextureLimits& limits)
+PackedScene all_tables(const Scene& scene, const TextureLimits& limits)
 {
     const FlatScene flat = flatten(scene);
     PackedScene packed{.textures = TextureLayout(scene.images)};
@@ -214,6 +213,13 @@ PackedScene pack_scene(const Scene& scene, const TextureLimits& limits)
         packed.dielectric_albedo = dielectric_albedo_table();
     packed.dropped_triangles = flat.dropped_triangles;
     return packed;
+}
+
+}  // namespace
+
+PackedScene pack_scene(const Scene& scene, const TextureLimits& limits)
+{
+    return within_memory({scene.file, {}}, [&] { return all_tables(scene, limits); });
 }
 
 std::vector<std::pair<const char*, const Texels*>> PackedScene::tables() const

@@ -24,10 +24,12 @@ SceneDocument::SceneDocument(Json document, const SceneDocument& before)
     , files_(before.files_)
     , document_(std::make_shared<const Json>(std::move(document)))
 {
-    Scene scene = scene_from_json(*document_, {name_, is_gltf_}, *files_);
-    if (scene.name.empty())
-        scene.name = std::filesystem::path(name_).stem().string();
-    scene_ = std::make_shared<const Scene>(std::move(scene));
+    scene_ = within_memory({name_, {}}, [&] {
+        Scene scene = scene_from_json(*document_, {name_, is_gltf_}, *files_);
+        if (scene.name.empty())
+            scene.name = std::filesystem::path(name_).stem().string();
+        return std::make_shared<const Scene>(std::move(scene));
+    });
 }
 
 SceneDocument SceneDocument::load(const std::filesystem::path& file)

@@ -3,7 +3,9 @@
 
 #include "server/scene/scene_file.h"
 
+#include <new>
 #include <nlohmann/json_fwd.hpp>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -21,6 +23,21 @@ struct ScenePlace {
 /// Throws SceneError `FILE: POINTER: found FOUND, expected EXPECTED`.
 [[noreturn]] void refuse(
     const ScenePlace& place, std::string_view found, std::string_view expected);
+
+/// What `load` returns. Memory that is not to be had is a SceneError at `place`, which stands for
+/// what is being loaded.
+template <typename Load> auto within_memory(const ScenePlace& place, const Load& load)
+{
+    constexpr const char* kFound = "more than fits in memory";
+    constexpr const char* kExpected = "a smaller scene, or a machine with more memory";
+    try {
+        return load();
+    } catch (const std::bad_alloc&) {
+        refuse(place, kFound, kExpected);
+    } catch (const std::length_error&) {  // a container's own limit
+        refuse(place, kFound, kExpected);
+    }
+}
 
 /// A value as an error message shows it: short, on one line.
 std::string describe(const nlohmann::json& value);

@@ -30,7 +30,8 @@ std::shared_ptr<const T> SceneFiles::read_once(Known<T>& known, const std::strin
     if (!std::filesystem::exists(file))
         refuse(place, in_quotes(path) + ", and no such file", expected);
     try {
-        return known[path] = std::make_shared<const T>(read(file));
+        return known[path] = within_memory(
+                   {file.string(), {}}, [&] { return std::make_shared<const T>(read(file)); });
     } catch (const SceneError& error) {
         if (place.pointer.empty())
             throw;

@@ -62,6 +62,9 @@ INSTANTIATE_TEST_SUITE_P(Document, BadGltfTest,
             "/scene: found index 1, expected less than 1, the number of scenes"},
         BadGltf{"SceneOfNothing", "/scenes/0/nodes", "[]",
             "/scenes: found no mesh in the scene's nodes, expected at least one"},
+        BadGltf{"AllFlat", "/nodes/0/scale", "[0, 0, 0]",
+            "/scenes/0/nodes: found 1 objects, all left out because a scale of 0 makes them flat, "
+            "expected at least one that is not"},
         BadGltf{"WrongRoot", "/scenes/0/nodes", "[4]",
             "/scenes/0/nodes/0: found index 4, expected less than 1, the number of nodes"}),
     kName);
@@ -99,14 +102,24 @@ INSTANTIATE_TEST_SUITE_P(Bytes, BadGltfTest,
             "/accessors/0/count: found -1, expected an integer from 1 to 4294967295"},
         BadGltf{"ZerosWithoutEnd", "/accessors/0",
             R"({"count": 4294967295, "componentType": 5126, "type": "VEC3"})",
-            "/accessors/0/count: found 4294967295, expected at most 16777216 without a "
-            "bufferView"},
+            "/accessors/0/count: found 4294967295, expected at most 65536 without a bufferView in "
+            "a file of this size"},
         BadGltf{"StrideTooSmall", "/bufferViews/0/byteStride", "8",
             "/bufferViews/0/byteStride: found 8, expected at least 12, an element of "
             "/accessors/0"},
         BadGltf{"ComponentType", "/accessors/0/componentType", "5124",
             "/accessors/0/componentType: found 5124, expected a component type: 5120, 5121, "
             "5122, 5123, 5125 or 5126"},
+        BadGltf{"SparseIndexBeyondAccessor", "/accessors/0/sparse",
+            R"({"count": 2, "indices": {"bufferView": 0, "componentType": 5121, "byteOffset": 13},
+                "values": {"bufferView": 0}})",
+            "/accessors/0/sparse/indices: found index 128 as element 1, expected less than 3, the "
+            "accessor's count"},
+        BadGltf{"SparseIndexTwice", "/accessors/0/sparse",
+            R"({"count": 2, "indices": {"bufferView": 0, "componentType": 5121},
+                "values": {"bufferView": 0}})",
+            "/accessors/0/sparse/indices: found index 0 as element 1 after 0, expected indices "
+            "that strictly increase"},
         BadGltf{"SparseBeyondView", "/accessors/0/sparse",
             R"({"count": 2, "indices": {"bufferView": 1, "componentType": 5125},
                 "values": {"bufferView": 0}})",
