@@ -74,7 +74,8 @@ void Reader::read_objects()
     if (scene().objects.empty() && objects.flat_instances() > 0)
         refuse(root_ / "scenes" / index_ / "nodes",
             std::to_string(objects.flat_instances())
-                + " objects, all left out because a scale of 0 makes them flat",
+                + " objects, all left out because their transform makes them flat, as a scale of 0 "
+                  "does",
             "at least one that is not");
     if (scene().objects.empty())
         refuse(root_ / "scenes", "no mesh in the scene's nodes", "at least one");
@@ -84,17 +85,14 @@ void Reader::read_objects()
 
 void Reader::read_lights()
 {
-    std::size_t changed = 0;
+    GltfLightCounts counts;
     std::size_t flat = 0;  // whose transform leaves no direction
     for (const GltfNode& node : tree_.nodes) {
         const Json& json = json_of(node);
         const Json* extension = gltf_extension(json, "KHR_lights_punctual");
         if (extension == nullptr)
             continue;
-        const ScenePlace place =
-            root_ / "nodes" / node.index / "extensions" / "KHR_lights_punctual";
-        PunctualLight light =
-            read_gltf_light(gltf_, extension->at("light"), place / "light", changed);
+        PunctualLight light = read_gltf_light(gltf_, extension->at("light"), counts);
         if (light.name.empty())
             light.name = json.value("name", "");
         if (light.name.empty())
@@ -105,9 +103,13 @@ void Reader::read_lights()
         else
             ++flat;
     }
-    if (changed > 0)
+    if (counts.clamped > 0)
         scene().notes.push_back(
-            std::to_string(changed) + " lights with numbers outside their range clamped");
+            std::to_string(counts.clamped) + " lights with numbers outside their range clamped");
+    if (counts.with_range > 0)
+        scene().notes.push_back(std::to_string(counts.with_range)
+            + " lights with a range: light has none here, it falls off with the square of the "
+              "distance");
     if (flat > 0)
         scene().notes.push_back(
             std::to_string(flat) + " lights left out: a scale of 0 leaves no direction");
@@ -128,9 +130,6 @@ void Reader::read_cameras()
             ++orthographic;
             continue;
         }
-        if (!camera.contains("perspective"))
-            refuse(root_ / "cameras" / json["camera"].get<std::size_t>(), "no key \"perspective\"",
-                "what its type says");
         const auto pose = gltf_camera_pose(camera, node.world_from_node, bounds, scene().notes);
         if (!pose)
             continue;

@@ -34,19 +34,13 @@ void read_cone(const Json& light, PunctualLight& read, std::size_t& changed)
 
 }  // namespace
 
-PunctualLight read_gltf_light(
-    const GltfContainer& gltf, const Json& index, const ScenePlace& place, std::size_t& changed)
+PunctualLight read_gltf_light(const GltfContainer& gltf, const Json& index, GltfLightCounts& counts)
 {
-    static const Json none = Json::array();
-    const Json* extension = gltf_extension(gltf.document, "KHR_lights_punctual");
-    const Json& lights =
-        extension != nullptr && extension->contains("lights") ? extension->at("lights") : none;
-    if (index.get<std::uint64_t>() >= lights.size())
-        refuse(place, "index " + index.dump(),
-            "less than " + std::to_string(lights.size()) + ", the number of lights");
-    const Json& light = lights[index.get<std::size_t>()];
+    const Json& light = gltf_extension(gltf.document, "KHR_lights_punctual")
+                            ->at("lights")[index.get<std::size_t>()];
     PunctualLight read;
     read.name = light.value("name", "");
+    std::size_t changed = 0;
     read.intensity = intensity_of(light, changed);
     const auto type = light["type"].get<std::string>();
     read.kind = type == "point" ? PunctualLight::Kind::kPoint
@@ -54,6 +48,8 @@ PunctualLight read_gltf_light(
                                 : PunctualLight::Kind::kDirectional;
     if (read.kind == PunctualLight::Kind::kSpot)
         read_cone(light, read, changed);
+    counts.clamped += changed;
+    counts.with_range += light.contains("range") ? 1 : 0;
     return read;
 }
 

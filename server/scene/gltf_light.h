@@ -6,10 +6,14 @@
 
 namespace farlight {
 
-/// The document's light `index`, found at `place`: at the origin, shining along -z. What had to be
-/// changed is counted into `changed`. Throws SceneError.
-PunctualLight read_gltf_light(const GltfContainer& gltf, const nlohmann::json& index,
-    const ScenePlace& place, std::size_t& changed);
+struct GltfLightCounts {
+    std::size_t clamped = 0;  ///< Numbers outside their range.
+    std::size_t with_range = 0;  ///< Which is not read.
+};
+
+/// The document's light `index`, which check_gltf() found: at the origin, shining along -z.
+PunctualLight read_gltf_light(
+    const GltfContainer& gltf, const nlohmann::json& index, GltfLightCounts& counts);
 
 /// `light` as `to_from` moves it; nothing where that leaves it no direction.
 bool place_light(PunctualLight& light, const glm::dmat4& to_from);

@@ -108,7 +108,7 @@ std::vector<glm::vec3> displacements(
 }
 
 std::vector<MorphTarget> read_targets(
-    const GltfContainer& gltf, const Json& primitive, bool has_normals)
+    const GltfContainer& gltf, const Json& primitive, bool has_normals, MeshRepairs& repairs)
 {
     std::vector<MorphTarget> targets;
     for (const Json& target : primitive.value("targets", Json::array())) {
@@ -116,6 +116,8 @@ std::vector<MorphTarget> read_targets(
         read.positions = displacements(gltf, target, "POSITION");
         if (has_normals)
             read.normals = displacements(gltf, target, "NORMAL");
+        for (const auto& [name, accessor] : target.items())
+            repairs.unread_morph_attributes += name != "POSITION" && name != "NORMAL" ? 1 : 0;
     }
     return targets;
 }
@@ -156,7 +158,7 @@ Mesh read_gltf_primitive(
     const GltfContainer& gltf, const Json& primitive, const ScenePlace& place, MeshRepairs& repairs)
 {
     Mesh mesh = read_attributes(gltf, primitive["attributes"]);
-    mesh.morph_targets = read_targets(gltf, primitive, !mesh.normals.empty());
+    mesh.morph_targets = read_targets(gltf, primitive, !mesh.normals.empty(), repairs);
     if (primitive["attributes"].contains("JOINTS_1"))
         keep_strongest_joints(gltf, primitive["attributes"], mesh, repairs);
     const int mode = primitive.value("mode", kTriangles);

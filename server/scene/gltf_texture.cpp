@@ -12,6 +12,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kNearest = 9728;
+constexpr int kNearestInMipmap = 9984;
+constexpr int kNearestOfTwoMipmaps = 9986;
 constexpr int kClampToEdge = 33071;
 constexpr int kMirroredRepeat = 33648;
 
@@ -25,6 +27,12 @@ Wrap wrap_of(const Json& sampler, const char* key)
     case kMirroredRepeat: return Wrap::kMirror;
     default: return Wrap::kRepeat;
     }
+}
+
+bool is_nearest(int min_filter)
+{
+    return min_filter == kNearest || min_filter == kNearestInMipmap
+        || min_filter == kNearestOfTwoMipmaps;
 }
 
 glm::mat3 image_from_uv(const Json& transform, const ScenePlace& place)
@@ -73,6 +81,7 @@ Texture GltfTextures::read(const Json& owner, const char* key, const ScenePlace&
         texture.wrap_u = wrap_of(sampler, "wrapS");
         texture.wrap_v = wrap_of(sampler, "wrapT");
         texture.nearest = sampler.value("magFilter", 0) == kNearest;
+        smoothed_ += !texture.nearest && is_nearest(sampler.value("minFilter", 0)) ? 1 : 0;
     }
     texture.image = images_.read(found["source"], texture_place / "source");
     return texture;
@@ -87,6 +96,10 @@ std::vector<std::string> GltfTextures::notes() const
     if (other_uv_sets_ > 0)
         notes.push_back(std::to_string(other_uv_sets_)
             + " uses of textures read with UV set 0: only sets 0 and 1 are read");
+    if (smoothed_ > 0)
+        notes.push_back(std::to_string(smoothed_)
+            + " uses of textures with a minFilter of NEAREST smoothed where they shrink: only "
+              "magFilter is read");
     return notes;
 }
 

@@ -20,6 +20,7 @@ private:
     GltfImages images_;
     std::size_t without_image_ = 0;  // textures that only an extension gives an image
     std::size_t other_uv_sets_ = 0;
+    std::size_t smoothed_ = 0;  // that ask for a nearest texel where they shrink alone
 };
 
 }  // namespace farlight

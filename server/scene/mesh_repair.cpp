@@ -146,6 +146,7 @@ MeshRepairs& MeshRepairs::operator+=(const MeshRepairs& other)
     changed_colors += other.changed_colors;
     changed_weights += other.changed_weights;
     vertices_of_fewer_joints += other.vertices_of_fewer_joints;
+    unread_morph_attributes += other.unread_morph_attributes;
     dropped_displacements += other.dropped_displacements;
     return *this;
 }
@@ -170,6 +171,8 @@ std::vector<std::string> MeshRepairs::notes() const
         " without joint weights: the first joint moves them");
     note(vertices_of_fewer_joints, "vertex", "vertices",
         " with more than four joints: the four strongest move them");
+    note(unread_morph_attributes, "attribute", "attributes",
+        " of morph targets left out: only positions and normals are morphed");
     note(dropped_displacements, "morph displacement", "morph displacements",
         " not finite (or beyond 1e11): now 0");
     return notes;

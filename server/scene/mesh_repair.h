@@ -23,6 +23,7 @@ struct MeshRepairs {
     std::size_t changed_colors = 0;  ///< Now in [0, 1].
     std::size_t changed_weights = 0;  ///< Vertices whose joints' weights had no sum: now all first.
     std::size_t vertices_of_fewer_joints = 0;  ///< Which more than four joints would move.
+    std::size_t unread_morph_attributes = 0;  ///< Other than positions and normals.
     std::size_t dropped_displacements = 0;  ///< Of morph targets, not finite or too far; now 0.
 
     MeshRepairs& operator+=(const MeshRepairs& other);

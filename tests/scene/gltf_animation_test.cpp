@@ -256,6 +256,14 @@ TEST_F(GltfMorphTest, BadWeightsAreRefused)
     EXPECT_THAT(refused(), HasSubstr("/targets/0/POSITION: found SCALAR of component type 5123"));
 }
 
+TEST_F(GltfAnimationTest, OtherAttributesOfMorphTargetsAreNoted)
+{
+    gltf_.document["meshes"][0]["primitives"][0]["targets"] = {
+        {{"POSITION", 0}, {"TANGENT", 0}, {"COLOR_0", 0}}, {{"NORMAL", 0}, {"TEXCOORD_0", 0}}};
+    EXPECT_THAT(load().notes,
+        Contains("3 attributes of morph targets left out: only positions and normals are morphed"));
+}
+
 /// The triangle on a skin of two joints, nodes 1 and 2.
 class GltfSkinTest : public GltfAnimationTest {
 protected:

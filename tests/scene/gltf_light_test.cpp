@@ -75,6 +75,15 @@ TEST_F(GltfLightTest, SpotCones)
     EXPECT_THAT(scene.notes, Contains("1 lights with numbers outside their range clamped"));
 }
 
+TEST_F(GltfLightTest, ARangeIsNoted)
+{
+    EXPECT_THAT(load(with_light({{"type", "point"}, {"range", 0.5}})).notes,
+        Contains("1 lights with a range: light has none here, it falls off with the square of the "
+                 "distance"));
+    EXPECT_THAT(load(with_light({{"type", "point"}})).notes,
+        testing::Not(Contains(testing::HasSubstr("range"))));
+}
+
 TEST_F(GltfLightTest, BadLights)
 {
     const auto refused = [&](const GltfBuilder& gltf) {
