@@ -94,14 +94,10 @@ void Reader::read_channel(const Json& clip, const Json& channel, const ScenePlac
         ++other_paths_;
         return;
     }
-    gltf_.item("nodes", target["node"], place / "target" / "node");
     const std::vector<std::uint32_t> targets = targets_of(*path, target["node"].get<std::size_t>());
     if (targets.empty())
         return;  // nothing hangs on it
     const Json& samplers = clip["samplers"];
-    if (channel["sampler"].get<std::uint64_t>() >= samplers.size())
-        refuse(place / "sampler", "index " + channel["sampler"].dump(),
-            "less than " + std::to_string(samplers.size()) + ", the number of samplers");
     const auto sampler = channel["sampler"].get<std::size_t>();
     ScenePlace sampler_place = place;
     sampler_place.pointer.resize(place.pointer.rfind("/channels/"));

@@ -56,9 +56,7 @@ public:
         each("bufferViews", &Checker::check_buffer_view);
         each("accessors", &Checker::check_accessor);
         each("meshes", &Checker::check_mesh);
-        each("nodes", &Checker::check_node);
-        each("scenes", &Checker::check_scene);
-        check_index(gltf_.document, "scene", "scenes", root_);
+        check_gltf_references(gltf_);
     }
 
 private:
@@ -81,21 +79,6 @@ private:
             (this->*check_one)(gltf_.list(name)[i], root_ / name / i);
     }
 
-    void check_index(
-        const Json& object, const char* key, const char* into, const ScenePlace& place) const
-    {
-        if (object.contains(key))
-            gltf_.item(into, object.at(key), place / key);
-    }
-
-    void check_indices(
-        const Json& object, const char* key, const char* into, const ScenePlace& place) const
-    {
-        const Json indices = object.value(key, Json::array());
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            gltf_.item(into, indices[i], place / key / i);
-    }
-
     void check_bytes(const Json& part, const ScenePlace& place) const;
     void check_buffer_view(const Json& view, const ScenePlace& place) const;
     void check_accessor(const Json& accessor, const ScenePlace& place) const;
@@ -103,11 +86,6 @@ private:
     void check_mesh(const Json& mesh, const ScenePlace& place) const
     {
         check_gltf_mesh(gltf_, mesh, place);
-    }
-    void check_node(const Json& node, const ScenePlace& place) const;
-    void check_scene(const Json& scene, const ScenePlace& place) const
-    {
-        check_indices(scene, "nodes", "nodes", place);
     }
 
     const GltfContainer& gltf_;
@@ -205,14 +183,6 @@ void Checker::check_sparse(const Json& accessor, const ScenePlace& place) const
     };
     check_part("indices", component_size(sparse["indices"]["componentType"].get<int>()));
     check_part("values", element_size(accessor));
-}
-
-void Checker::check_node(const Json& node, const ScenePlace& place) const
-{
-    check_index(node, "mesh", "meshes", place);
-    check_index(node, "camera", "cameras", place);
-    check_index(node, "skin", "skins", place);
-    check_indices(node, "children", "nodes", place);
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr const char* kDraco = "KHR_draco_mesh_compression";
+
 struct AttributeRule {
     std::string_view name;
     std::array<std::string_view, 2> types;
@@ -66,6 +68,13 @@ void check_indices(const GltfContainer& gltf, const Json& primitive, const Scene
         refuse(place / "indices", described(accessor), "SCALAR of unsigned bytes, shorts or ints");
 }
 
+/// Attributes of any name, be they read or not.
+void check_named(const GltfContainer& gltf, const Json& attributes, const ScenePlace& place)
+{
+    for (const auto& [name, accessor] : attributes.items())
+        gltf.item("accessors", accessor, place / name);
+}
+
 void check_primitive(const GltfContainer& gltf, const Json& primitive, const ScenePlace& place)
 {
     const Json& attributes = primitive["attributes"];
@@ -79,11 +88,17 @@ void check_primitive(const GltfContainer& gltf, const Json& primitive, const Sce
         if (const auto found = attributes.find(rule.name); found != attributes.end())
             check_attribute(gltf, rule, *found, positions, place / "attributes" / rule.name);
     const Json targets = primitive.value("targets", Json::array());
-    for (std::size_t i = 0; i < targets.size(); ++i)
+    check_named(gltf, attributes, place / "attributes");
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        check_named(gltf, targets[i], place / "targets" / i);
         for (std::size_t rule = 0; rule < 2; ++rule)  // POSITION and NORMAL
             if (const auto found = targets[i].find(kRules[rule].name); found != targets[i].end())
                 check_attribute(gltf, kRules[rule], *found, positions,
                     place / "targets" / i / kRules[rule].name);
+    }
+    if (const Json* draco = gltf_extension(primitive, kDraco))
+        gltf.item(
+            "bufferViews", (*draco)["bufferView"], place / "extensions" / kDraco / "bufferView");
     if (primitive.contains("indices"))
         check_indices(gltf, primitive, place);
 }

@@ -79,10 +79,7 @@ void GltfRig::find_joints()
             continue;
         const ScenePlace place = gltf_.root / "skins" / json["skin"].get<std::size_t>() / "joints";
         const Json& joints = (*skin)["joints"];
-        if (joints.empty())
-            refuse(place, "no joints", "at least one joint");
         for (std::size_t i = 0; i < joints.size(); ++i) {
-            gltf_.item("nodes", joints[i], place / i);
             const std::uint32_t here = tree_.find(joints[i].get<std::size_t>());
             if (here == kNone)
                 refuse(place / i, "node " + joints[i].dump() + ", which is not in the scene",

@@ -63,8 +63,8 @@ INSTANTIATE_TEST_SUITE_P(Document, BadGltfTest,
         BadGltf{"SceneOfNothing", "/scenes/0/nodes", "[]",
             "/scenes: found no mesh in the scene's nodes, expected at least one"},
         BadGltf{"AllFlat", "/nodes/0/scale", "[0, 0, 0]",
-            "/scenes/0/nodes: found 1 objects, all left out because a scale of 0 makes them flat, "
-            "expected at least one that is not"},
+            "/scenes/0/nodes: found 1 objects, all left out because their transform makes them "
+            "flat, as a scale of 0 does, expected at least one that is not"},
         BadGltf{"WrongRoot", "/scenes/0/nodes", "[4]",
             "/scenes/0/nodes/0: found index 4, expected less than 1, the number of nodes"}),
     kName);
@@ -185,6 +185,57 @@ INSTANTIATE_TEST_SUITE_P(Nodes, BadGltfTest,
         BadGltf{"TooFar", "/nodes/0/translation", "[1e300, 0, 0]",
             "/nodes/0: found a transform beyond 1e11, expected numbers of at most 1e11 in "
             "magnitude"}),
+    kName);
+
+// Of what the scene shows none of.
+INSTANTIATE_TEST_SUITE_P(Unused, BadGltfTest,
+    testing::Values(BadGltf{"CycleOfNodes", "/nodes/1", R"({"children": [1]})",
+                        "/nodes/1/children/0: found node 1 a second time, expected a tree: no "
+                        "cycles, one parent a node"},
+        BadGltf{"TwoParents", "/nodes",
+            R"([{"mesh": 0}, {"children": [3]}, {"children": [3]}, {}])",
+            "/nodes/2/children/0: found node 3 a second time, expected a tree: no cycles, one "
+            "parent a node"},
+        BadGltf{"Skin", "/skins", R"([{"joints": [0, 99]}])",
+            "/skins/0/joints/1: found index 99, expected less than 1, the number of nodes"},
+        BadGltf{"SkinWithoutJoints", "/skins", R"([{"joints": []}])",
+            "/skins/0/joints: found no joints, expected at least one joint"},
+        BadGltf{"Skeleton", "/skins", R"([{"joints": [0], "skeleton": 1}])",
+            "/skins/0/skeleton: found index 1, expected less than 1, the number of nodes"},
+        BadGltf{"BindMatrices", "/skins", R"([{"joints": [0], "inverseBindMatrices": 2}])",
+            "/skins/0/inverseBindMatrices: found index 2, expected less than 2, the number of "
+            "accessors"},
+        BadGltf{"ImageOfTexture", "/textures", R"([{"source": 0}])",
+            "/textures/0/source: found index 0, expected less than 0, the number of images"},
+        BadGltf{"SamplerOfTexture", "/textures", R"([{"sampler": 0}])",
+            "/textures/0/sampler: found index 0, expected less than 0, the number of samplers"},
+        BadGltf{"ViewOfImage", "/images", R"([{"bufferView": 2}])",
+            "/images/0/bufferView: found index 2, expected less than 2, the number of "
+            "bufferViews"},
+        BadGltf{"Lens", "/cameras", R"([{"type": "perspective"}])",
+            "/cameras/0: found no key \"perspective\", expected what its type says"},
+        BadGltf{"Channel", "/animations",
+            R"([{"samplers": [], "channels": [{"sampler": 0, "target": {"path": "other"}}]}])",
+            "/animations/0/channels/0/sampler: found index 0, expected less than 0, the number of "
+            "samplers"},
+        BadGltf{"NodeOfChannel", "/animations",
+            R"([{"samplers": [{"input": 0, "output": 0}],
+                 "channels": [{"sampler": 0, "target": {"node": 1, "path": "other"}}]}])",
+            "/animations/0/channels/0/target/node: found index 1, expected less than 1, the number "
+            "of nodes"},
+        BadGltf{"Keyframes", "/animations",
+            R"([{"samplers": [{"input": 0, "output": 2}], "channels": []}])",
+            "/animations/0/samplers/0/output: found index 2, expected less than 2, the number of "
+            "accessors"},
+        BadGltf{"Attribute", "/meshes/0/primitives/0/attributes/TEXCOORD_5", "99",
+            "/meshes/0/primitives/0/attributes/TEXCOORD_5: found index 99, expected less than 2, "
+            "the number of accessors"},
+        BadGltf{"MorphTarget", "/meshes/0/primitives/0/targets", R"([{"COLOR_0": 99}])",
+            "/meshes/0/primitives/0/targets/0/COLOR_0: found index 99, expected less than 2, the "
+            "number of accessors"},
+        BadGltf{"Light", "/nodes/1", R"({"extensions": {"KHR_lights_punctual": {"light": 0}}})",
+            "/nodes/1/extensions/KHR_lights_punctual/light: found index 0, expected less than 0, "
+            "the number of lights"}),
     kName);
 
 class GltfContainerTest : public testing::Test {

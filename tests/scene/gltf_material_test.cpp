@@ -46,6 +46,25 @@ protected:
     TempFolder folder_;
 };
 
+TEST_F(GltfMaterialTest, AFilterThatIsNotReadIsNoted)
+{
+    const auto notes_with = [&](const Json& sampler) {
+        GltfBuilder gltf =
+            with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
+        gltf.document["samplers"] = Json::array({sampler});
+        gltf.document["textures"][0]["sampler"] = 0;
+        return load(gltf).notes;
+    };
+    const auto noted = Contains(
+        "1 uses of textures with a minFilter of NEAREST smoothed where they shrink: only magFilter "
+        "is read");
+    for (const int nearest : {9728, 9984, 9986})
+        EXPECT_THAT(notes_with({{"minFilter", nearest}}), noted) << nearest;
+    for (const int linear : {9729, 9985, 9987})
+        EXPECT_THAT(notes_with({{"minFilter", linear}}), testing::Not(noted)) << linear;
+    EXPECT_THAT(notes_with({{"minFilter", 9984}, {"magFilter", 9728}}), testing::Not(noted));
+}
+
 TEST_F(GltfMaterialTest, DefaultsAreThoseOfGltf)
 {
     const Material found = material({{"name", "plain"}});
@@ -271,6 +290,7 @@ TEST_F(GltfMaterialTest, BadImagesAreRefused)
     EXPECT_EQ(refusal_of(gltf), "/images/0: found no key \"uri\", expected a uri or a bufferView");
     gltf.document["textures"][0]["source"] = 1;
     EXPECT_THAT(refusal_of(gltf), HasSubstr("/textures/0/source: found index 1"));
+    gltf.document["textures"][0]["source"] = 0;
     gltf.document["materials"][0]["emissiveTexture"]["index"] = 1;
     EXPECT_THAT(refusal_of(gltf), HasSubstr("/materials/0/emissiveTexture/index: found index 1"));
 }
