@@ -1,17 +1,14 @@
-// glTF cameras -> camera poses.
+// glTF cameras -> the scene's camera and its camera paths.
 #pragma once
 
-#include "server/scene/gltf_container.h"
-#include "server/scene/scene.h"
-
-#include <optional>
+#include "server/scene/gltf_rig.h"
 
 namespace farlight {
 
-/// The pose of the camera `json`, a perspective one, standing at `world_from_node` before objects
-/// within `bounds`. Nothing if the transform leaves it no direction. A field of view beyond the
-/// limits of camera_limits.h is clamped and noted.
-std::optional<CameraPose> gltf_camera_pose(const nlohmann::json& json,
-    const glm::dmat4& world_from_node, const Bounds& bounds, std::vector<std::string>& notes);
+/// The first perspective camera of the tree gives `scene` its camera; the others, and all that an
+/// animation moves, become paths named after the camera. Whether there was one. The scene has its
+/// objects and what moves them. Throws SceneError.
+bool read_gltf_cameras(
+    const GltfContainer& gltf, const GltfTree& tree, const GltfRig& rig, Scene& scene);
 
 }  // namespace farlight

@@ -35,7 +35,7 @@ public:
         read_gltf_materials(gltf_, scene());
         read_objects();
         read_lights();
-        read_cameras();
+        result_.has_camera = read_gltf_cameras(gltf_, tree_, rig_, scene());
         note_the_rest();
         return std::move(result_);
     }
@@ -47,7 +47,6 @@ private:
     void read_name();
     void read_objects();
     void read_lights();
-    void read_cameras();
     void note_the_rest();
 
     GltfContainer& gltf_;
@@ -113,41 +112,6 @@ void Reader::read_lights()
     if (flat > 0)
         scene().notes.push_back(
             std::to_string(flat) + " lights left out: a scale of 0 leaves no direction");
-}
-
-/// The first perspective camera is the scene's; the others become paths of one keyframe.
-void Reader::read_cameras()
-{
-    const Bounds bounds = scene_bounds(scene());
-    std::size_t orthographic = 0;
-    std::size_t moving = 0;
-    for (const GltfNode& node : tree_.nodes) {
-        const Json& json = json_of(node);
-        if (!json.contains("camera"))
-            continue;
-        const Json& camera = gltf_.list("cameras")[json["camera"].get<std::size_t>()];
-        if (camera["type"] != "perspective") {
-            ++orthographic;
-            continue;
-        }
-        const auto pose = gltf_camera_pose(camera, node.world_from_node, bounds, scene().notes);
-        if (!pose)
-            continue;
-        moving += rig_.moves(node) ? 1 : 0;
-        if (!result_.has_camera) {
-            scene().camera = *pose;
-            result_.has_camera = true;
-            continue;
-        }
-        std::string name = json.value("name", camera.value("name", "camera"));
-        if (scene().camera_paths.contains(name))
-            name += " (node " + std::to_string(node.index) + ")";
-        scene().camera_paths[name] = {{0, *pose}};
-    }
-    if (orthographic > 0)
-        scene().notes.push_back(std::to_string(orthographic) + " orthographic cameras left out");
-    if (moving > 0)
-        scene().notes.push_back(std::to_string(moving) + " animated cameras stay where they start");
 }
 
 void Reader::note_the_rest()

@@ -31,10 +31,11 @@ bool finite(const glm::mat4& matrix)
 
 }  // namespace
 
-GltfRig::GltfRig(const GltfContainer& gltf, GltfTree& tree, Animation& animation)
+GltfRig::GltfRig(const GltfContainer& gltf, GltfTree& tree, Animation& animation, Carried carried)
     : gltf_(gltf)
     , tree_(tree)
     , animation_(animation)
+    , carried_(carried)
     , moves_(tree.nodes.size(), false)
     , is_moved_(tree.nodes.size(), false)
     , is_joint_(tree.nodes.size(), false)
@@ -42,7 +43,8 @@ GltfRig::GltfRig(const GltfContainer& gltf, GltfTree& tree, Animation& animation
     , nodes_(tree.nodes.size(), kNone)
 {
     find_moving();
-    find_joints();
+    if (carried == Carried::kObjectsAndLights)
+        find_joints();
     find_carrying();
     place_nodes();
 }
@@ -89,13 +91,20 @@ void GltfRig::find_joints()
     }
 }
 
+bool GltfRig::carries(const Json& node) const
+{
+    if (carried_ == Carried::kCameras)
+        return node.contains("camera");
+    return (node.contains("mesh") && skin_of(gltf_, node) == nullptr)
+        || gltf_extension(node, "KHR_lights_punctual") != nullptr;
+}
+
 void GltfRig::find_carrying()
 {
     for (std::size_t i = tree_.nodes.size(); i-- > 0;) {  // children before their parents
         const GltfNode& node = tree_.nodes[i];
         const Json& json = gltf_.list("nodes")[node.index];
-        if (is_joint_[i] || (json.contains("mesh") && skin_of(gltf_, json) == nullptr)
-            || gltf_extension(json, "KHR_lights_punctual") != nullptr)
+        if (is_joint_[i] || carries(json))
             carries_[i] = true;
         if (carries_[i] && node.parent != kNone)
             carries_[node.parent] = true;

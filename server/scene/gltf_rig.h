@@ -9,9 +9,13 @@ namespace farlight {
 
 class GltfRig {
 public:
-    /// Fills the tree's carriers and animation.nodes. Throws SceneError for skins whose joints do
-    /// not exist or are not in the scene.
-    GltfRig(const GltfContainer& gltf, GltfTree& tree, Animation& animation);
+    /// What is carried by the nodes that are kept.
+    enum class Carried : std::uint8_t { kObjectsAndLights, kCameras };
+
+    /// Fills the tree's carriers and animation.nodes. Throws SceneError for skins whose joints are
+    /// not in the scene.
+    GltfRig(const GltfContainer& gltf, GltfTree& tree, Animation& animation,
+        Carried carried = Carried::kObjectsAndLights);
 
     /// Index into Animation::nodes of the document's node; kNone: it rests, or nothing hangs on it.
     std::uint32_t node(std::size_t index) const;
@@ -27,6 +31,7 @@ private:
     void find_moving();
     void find_joints();
     void find_carrying();
+    bool carries(const nlohmann::json& node) const;
     void place_nodes();
     std::vector<glm::dmat4> inverse_binds(
         const nlohmann::json& skin, const ScenePlace& place) const;
@@ -34,6 +39,7 @@ private:
     const GltfContainer& gltf_;
     GltfTree& tree_;
     Animation& animation_;
+    Carried carried_;
     // By place in the tree:
     std::vector<bool> moves_;  // itself
     std::vector<bool> is_moved_;  // or by what is above it

@@ -36,7 +36,7 @@ protected:
     TempFolder folder_;
 };
 
-const double kHalf = std::sqrt(0.5);
+constexpr float kHalf = 0.70710678F;  // sine and cosine of half a quarter turn
 
 TEST_F(GltfLightTest, PointLights)
 {
@@ -130,6 +130,100 @@ TEST_F(GltfLightTest, CamerasAfterTheFirstBecomePaths)
     ASSERT_EQ(scene.camera_paths.at("side").size(), 1U);
     EXPECT_EQ(scene.camera_paths.at("side")[0].pose.position, glm::dvec3(1, 0, 4));
     EXPECT_THAT(scene.notes, Contains("1 orthographic cameras left out"));
+}
+
+/// The triangle, and cameras that an animation moves.
+class GltfCameraPathTest : public GltfLightTest {
+protected:
+    GltfCameraPathTest() : gltf_(triangle_gltf())
+    {
+        gltf_.document["cameras"] = {{{"type", "perspective"},
+            {"perspective", {{"yfov", 1}, {"znear", 0.1}}}, {"name", "crane"}}};
+        gltf_.document["nodes"].push_back({{"children", {2}}, {"scale", {2, 2, 2}}});
+        gltf_.document["nodes"].push_back({{"camera", 0}, {"translation", {0, 0, 3}}});
+        gltf_.document["scenes"][0]["nodes"] = {0, 1};
+    }
+
+    void animate(int node, const char* path, const std::vector<float>& times,
+        const std::vector<float>& values, const char* type)
+    {
+        const int input = gltf_.add<float>(times, "SCALAR");
+        const int output = gltf_.add<float>(values, type);
+        gltf_.document["animations"].push_back(
+            {{"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", path}}}}}},
+                {"samplers", {{{"input", input}, {"output", output}}}}});
+    }
+
+    /// Places and looks of the camera at 0, 1 and 2 s.
+    void expect_turn(const std::vector<CameraKeyframe>& path)
+    {
+        const std::vector<glm::dvec3> positions{{0, 0, 6}, {6, 0, 0}, {6, 2, 0}};
+        const std::vector<glm::dvec3> views{{0, 0, -1}, {-1, 0, 0}, {-1, 0, 0}};
+        for (std::size_t second = 0; second < 3; ++second) {
+            const CameraKeyframe& key = path.at(30 * second);
+            EXPECT_EQ(key.frame, 30 * static_cast<double>(second));
+            const glm::dvec3 view = glm::normalize(key.pose.target - key.pose.position);
+            // Keys are floats: a quarter turn is one to 2^-24.
+            EXPECT_LT(glm::length(key.pose.position - positions[second]), 1e-6) << second;
+            EXPECT_LT(glm::length(view - views[second]), 1e-6) << second;
+            EXPECT_LT(glm::length(key.pose.up - glm::dvec3(0, 1, 0)), 1e-6) << second;
+        }
+    }
+
+    GltfBuilder gltf_;
+};
+
+TEST_F(GltfCameraPathTest, AMovingCameraIsAPath)
+{
+    animate(1, "rotation", {0, 1}, {0, 0, 0, 1, 0, kHalf, 0, kHalf}, "VEC4");  // above it
+    animate(1, "translation", {1, 2}, {0, 0, 0, 0, 2, 0}, "VEC3");
+    const Scene scene = load(gltf_);
+    ASSERT_EQ(scene.camera_paths.size(), 1U);
+    const auto& path = scene.camera_paths.at("crane");
+    EXPECT_EQ(path.size(), 61U);
+    EXPECT_EQ(scene.camera.position, path.front().pose.position) << "it starts where the path does";
+    EXPECT_TRUE(scene.animation.empty()) << "nothing that is seen moves";
+    EXPECT_THAT(scene.notes, testing::Not(Contains(testing::HasSubstr("camera"))));
+}
+
+TEST_F(GltfCameraPathTest, ItsKeyframesAreItsNodesTransforms)
+{
+    animate(1, "rotation", {0, 1, 2}, {0, 0, 0, 1, 0, kHalf, 0, kHalf, 0, kHalf, 0, kHalf}, "VEC4");
+    animate(1, "translation", {1, 2}, {0, 0, 0, 0, 2, 0}, "VEC3");
+    expect_turn(load(gltf_).camera_paths.at("crane"));
+}
+
+TEST_F(GltfCameraPathTest, LongPathsHaveFewerKeyframes)
+{
+    animate(2, "translation", {0, 1000}, {0, 0, 3, 1000, 0, 3}, "VEC3");
+    const auto path = load(gltf_).camera_paths.at("crane");
+    EXPECT_LE(path.size(), 4096U);
+    EXPECT_EQ(path.back().frame, 30000);
+    EXPECT_EQ(path.back().pose.position, glm::dvec3(2000, 0, 6));
+    EXPECT_EQ(path.at(1).frame, 8);
+}
+
+TEST_F(GltfCameraPathTest, NamesAreUnique)
+{
+    gltf_.document["cameras"][0].erase("name");
+    gltf_.document["nodes"].push_back({{"camera", 0}, {"name", "lookout"}});
+    gltf_.document["nodes"].push_back({{"camera", 0}, {"name", "lookout"}});
+    gltf_.document["scenes"][0]["nodes"] = {0, 1, 3, 4};
+    animate(2, "translation", {0, 1}, {0, 0, 3, 1, 0, 3}, "VEC3");
+    const Scene scene = load(gltf_);
+    std::vector<std::string> names;
+    for (const auto& path : scene.camera_paths)
+        names.push_back(path.first);
+    EXPECT_THAT(names, testing::ElementsAre("camera 0", "lookout", "lookout (node 4)"));
+}
+
+TEST_F(GltfCameraPathTest, WhatHasNoDirectionIsLeftOut)
+{
+    animate(2, "scale", {0, 1}, {0, 0, 0, 0, 0, 0}, "VEC3");
+    const Scene scene = load(gltf_);
+    EXPECT_TRUE(scene.camera_paths.empty());
+    EXPECT_THAT(scene.notes,
+        Contains("1 cameras left out: a scale of 0 leaves no direction, or they lie beyond 1e11"));
 }
 
 }  // namespace
