@@ -186,6 +186,21 @@ TEST(Neutral, UniformTexturesAreFoldedIntoTheirConstants)
     EXPECT_FLOAT_EQ(scene.materials[0].metallic, 0.5F);
 }
 
+TEST(Neutral, HolesOfVertexColoursStay)
+{
+    for (const AlphaMode mode : {AlphaMode::kBlend, AlphaMode::kMask}) {
+        Scene scene = plain();
+        scene.materials[0].alpha_mode = mode;
+        scene.meshes[0].colors.assign(3, glm::vec4(1));
+        scene.meshes[0].colors[1].w = 0.25F;
+        EXPECT_TRUE(mask_of_scene(scene).has("alpha"));
+        drop_neutral(scene);
+        EXPECT_EQ(scene.materials[0].alpha_mode, mode);
+        scene.meshes[0].colors[1].w = 0.75F;  // passes the mask's 0.5, but still is half there
+        EXPECT_EQ(mask_of_scene(scene).has("alpha"), mode == AlphaMode::kBlend);
+    }
+}
+
 Scene morphing(std::uint32_t objects)
 {
     Scene scene = plain();
