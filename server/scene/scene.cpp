@@ -3,6 +3,9 @@
 
 #include "server/scene/deform.h"
 
+#include <cmath>
+#include <limits>
+
 namespace farlight {
 namespace {
 
@@ -54,6 +57,16 @@ void extend(Bounds& bounds, const Rest& rest, const MeshInstance& instance, cons
         bounds.extend(glm::dvec3(m * instance.world_from_object * glm::dvec4(position, 1)));
 }
 
+/// A vertex that overflowed on its joints' way is everywhere: a NaN would pass every minimum.
+void extend_by_posed(Bounds& bounds, const glm::vec3& p)
+{
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z))
+        return bounds.extend(glm::dvec3(p));
+    bounds.extend(glm::dvec3(-kInfinity));
+    bounds.extend(glm::dvec3(kInfinity));
+}
+
 }  // namespace
 
 Bounds scene_bounds(const Scene& scene)
@@ -66,7 +79,7 @@ Bounds scene_bounds(const Scene& scene)
             continue;
         if (has_pose(scene, object)) {
             for (const glm::vec3& p : pose_object(scene, i, 0, rest.world_from_node).positions)
-                bounds.extend(glm::dvec3(p));
+                extend_by_posed(bounds, p);
             continue;
         }
         const glm::dmat4 world = carried(object.node, rest.world_from_node, glm::dmat4(1));

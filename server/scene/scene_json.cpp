@@ -19,16 +19,6 @@ namespace {
 using Json = nlohmann::json;
 
 /// A place far out times a scale can leave what a float holds though each number was fine.
-void check_extent(const Scene& scene)
-{
-    const Bounds bounds = scene_bounds(scene);
-    for (int axis = 0; axis < 3; ++axis)
-        if (!(std::abs(bounds.lower[axis]) <= kLargestCoordinate
-                && std::abs(bounds.upper[axis]) <= kLargestCoordinate))
-            refuse({scene.file, {}}, "objects beyond 1e11 in world space",
-                "coordinates of at most 1e11 in magnitude");
-}
-
 bool lacks_uvs(const Scene& scene, const Object& object)
 {
     const auto* instance = std::get_if<MeshInstance>(&object.shape);
@@ -52,6 +42,16 @@ void note_missing_uvs(Scene& scene)
 }
 
 }  // namespace
+
+void check_extent(const Scene& scene)
+{
+    const Bounds bounds = scene_bounds(scene);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(bounds.lower[axis]) <= kLargestCoordinate
+                && std::abs(bounds.upper[axis]) <= kLargestCoordinate))
+            refuse({scene.file, {}}, "objects beyond 1e11 in world space",
+                "coordinates of at most 1e11 in magnitude");
+}
 
 Scene scene_from_json(const Json& document, const SceneSource& source, SceneFiles& files)
 {

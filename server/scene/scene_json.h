@@ -15,4 +15,7 @@ struct SceneSource {
 /// `document` is any JSON; it is checked against the schema first. Throws SceneError.
 Scene scene_from_json(const nlohmann::json& document, const SceneSource& source, SceneFiles& files);
 
+/// Throws SceneError where objects at time 0 reach beyond 1e11, or overflow on the way.
+void check_extent(const Scene& scene);
+
 }  // namespace farlight

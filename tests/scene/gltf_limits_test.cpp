@@ -105,6 +105,25 @@ TEST_F(GltfLimitsTest, LoadingMoreThanFitsInMemoryIsARefusal)
 
 #endif
 
+TEST_F(GltfLimitsTest, ASkinThatOverflowsIsRefused)
+{
+    GltfBuilder gltf = triangle_gltf();
+    Json& attributes = gltf.document["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = gltf.add(std::vector<std::uint8_t>(12), "VEC4");
+    attributes["WEIGHTS_0"] = gltf.add<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    std::vector<float> bind(16, 0);
+    bind[0] = bind[5] = bind[10] = 3e38F;
+    bind[15] = 1;
+    gltf.document["skins"] = {
+        {{"joints", {1}}, {"inverseBindMatrices", gltf.add<float>(bind, "MAT4")}}};
+    gltf.document["nodes"][0]["skin"] = 0;
+    gltf.document["nodes"].push_back({{"scale", {4, 4, 4}}});
+    gltf.document["scenes"][0]["nodes"] = {0, 1};
+    EXPECT_EQ(outcome_of(gltf),
+        "found objects beyond 1e11 in world space, expected coordinates of at most 1e11 in "
+        "magnitude");
+}
+
 TEST_F(GltfLimitsTest, ASceneWithoutSizeIsSeenFromSomewhere)
 {
     GltfBuilder gltf = triangle_gltf();
