@@ -1,9 +1,15 @@
 // What server/scene/scene_file.h promises of every scene, checked one by one.
 #include "tests/scene/fuzz/scene_input.h"
 
+#include "server/gl/gl_error.h"
+#include "server/scene/camera_limits.h"
 #include "server/scene/gltf_file.h"
 #include "server/scene/material_textures.h"
+#include "server/scene/neutral.h"
+#include "server/scene/packed_scene.h"
+#include "server/scene/scene_defaults.h"
 #include "server/scene/scene_file.h"
+#include "server/scene/scene_json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +38,12 @@ public:
         for (const Image8& image : scene_.images)
             expect(image.texels.size() == std::size_t(image.width) * image.height, "an image");
         check_animation(scene_.animation);
-        expect(finite(scene_.camera.position) && finite(scene_.camera.target), "the camera");
+        check_pose(scene_.camera);
+        for (const auto& [name, path] : scene_.camera_paths) {
+            expect(!path.empty(), "a camera path's length");
+            for (const CameraKeyframe& keyframe : path)
+                check_pose(keyframe.pose);
+        }
         return broken_;
     }
 
@@ -66,6 +77,15 @@ private:
     {
         expect(list.empty() || list.size() == count, what);
         expect(std::all_of(list.begin(), list.end(), [](const T& v) { return finite(v); }), what);
+    }
+
+    void check_pose(const CameraPose& pose)
+    {
+        expect(finite(pose.position) && finite(pose.target) && finite(pose.up), "a camera");
+        expect(pose.position != pose.target, "a camera's target");
+        expect(
+            pose.vertical_fov_degrees >= kNarrowestFov && pose.vertical_fov_degrees <= kWidestFov,
+            "a camera's field of view");
     }
 
     void check_mesh(const Mesh& mesh)
@@ -158,6 +178,48 @@ private:
     std::string broken_;
 };
 
+/// Corners of all instances, and texels; keyframes, which are gone through for each track.
+std::size_t work_in(const Scene& scene)
+{
+    std::size_t work = 0;
+    for (const Object& object : scene.objects)
+        if (const auto* instance = std::get_if<MeshInstance>(&object.shape))
+            work += 3 * scene.meshes[instance->mesh].triangles.size();
+    for (const Image8& image : scene.images)
+        work += image.texels.size();
+    for (const Track& track : scene.animation.tracks)
+        work += track.times.size();
+    return work;
+}
+
+/// All that is done with a scene before a device is asked for. What breaks there is an assertion's.
+std::string packed(Scene scene)
+{
+    constexpr std::size_t kMostWork = 100'000;  // of which fuzzing does many a second
+    if (work_in(scene) > kMostWork)
+        return "loaded";
+    drop_neutral(scene);
+    try {
+        PackedScene packed = pack_scene(scene, {.size = 2048, .layers = 64});
+        packed.moving->pose(0.5, 0.25);
+        packed.lights->update(
+            packed.moving->lights(), {.world_from_node = packed.moving->world_from_node()});
+        return "loaded";
+    } catch (const GlError&) {
+        return "refused";  // more than a device's limits
+    }
+}
+
+/// As a scene that is nothing but this file.
+Scene shown(GltfScene file)
+{
+    check_extent(file.scene);
+    if (!file.has_camera)
+        add_framing_camera(file.scene);
+    add_default_light(file.scene);
+    return std::move(file.scene);
+}
+
 }  // namespace
 
 std::string broken_promise(const Scene& scene)
@@ -171,9 +233,9 @@ std::string load_input(SceneFormat format, std::string_view bytes)
     try {
         const Scene scene = format == SceneFormat::kJson
             ? parse_scene(bytes, folder, "input.json")
-            : parse_gltf(std::string(bytes), folder / "input.glb").scene;
+            : shown(parse_gltf(std::string(bytes), folder / "input.glb"));
         const std::string broken = broken_promise(scene);
-        return broken.empty() ? "loaded" : broken;
+        return broken.empty() ? packed(scene) : broken;
     } catch (const SceneError&) {
         return "refused";
     }

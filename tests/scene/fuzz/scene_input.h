@@ -10,8 +10,9 @@ namespace farlight {
 
 enum class SceneFormat : std::uint8_t { kJson, kGltf, kGlb };
 
-/// "loaded" or "refused" (a SceneError), or else what a scene that loaded breaks of load_scene()'s
-/// promise. Other exceptions go through: none should come.
+/// "loaded" or "refused" (a SceneError, or a GlError of what no device holds), or else what a scene
+/// that loaded breaks of load_scene()'s promise. A scene that loads and is not large is packed as
+/// for a device too. Other exceptions go through: none should come.
 std::string load_input(SceneFormat format, std::string_view bytes);
 
 /// What the scene breaks of the promise that its numbers are finite, its indices in range and its
