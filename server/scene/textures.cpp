@@ -104,12 +104,11 @@ void TextureLayout::lay_out(const TextureLimits& limits)
             throw GlError("image '" + image.name + "' has " + size_text(image.width, image.height)
                 + " texels, but this device allows " + size_text(limits.size, limits.size)
                 + " in a texture");
-        const std::uint32_t width = std::bit_ceil(image.width);
-        const std::uint32_t height = std::bit_ceil(image.height);
-        TextureArrayLayout& group = groups[{width, height, static_cast<std::uint32_t>(use.space)}];
+        TextureArrayLayout& group = groups[{std::bit_ceil(image.width), std::bit_ceil(image.height),
+            static_cast<std::uint32_t>(use.space)}];
         group.space = use.space;
-        group.width = width;
-        group.height = height;
+        group.width = std::max(group.width, image.width);
+        group.height = std::max(group.height, image.height);
         group.images.push_back(use.image);
     }
     arrays_.clear();

@@ -1,8 +1,9 @@
 // Which texture array and layer each image of a scene lies in, and how a material refers to it.
 //
 // All images that are needed lie in at most TEXTURE_ARRAYS arrays, grouped by their size rounded up
-// to powers of two and by how their texels are read. An image fills the lower corner of its layer
-// as it is; each of its mip levels likewise.
+// to powers of two and by how their texels are read. An array is as large as the largest of its
+// images, so none takes more than four times its own memory unless there are too many groups. An
+// image fills the lower corner of its layer as it is; each of its mip levels likewise.
 #pragma once
 
 #include "server/scene/texture_mips.h"
@@ -33,8 +34,8 @@ struct ImageUse {
 
 struct TextureArrayLayout {
     TexelSpace space = TexelSpace::kLinear;
-    std::uint32_t width = 0;  ///< Power of two, as is the height [texels].
-    std::uint32_t height = 0;
+    std::uint32_t width = 0;  ///< Of the widest image [texels].
+    std::uint32_t height = 0;  ///< Of the highest.
     std::vector<std::uint32_t> images;  ///< One a layer.
 
     std::uint32_t levels() const;
