@@ -101,8 +101,9 @@ std::vector<double> frames_until(double last, std::size_t most)
 {
     const double step = std::max(1.0, std::ceil(last / static_cast<double>(most - 1)));
     std::vector<double> frames;
-    for (double frame = 0; frame < last; frame += step)
-        frames.push_back(frame);
+    const auto before_last = static_cast<std::size_t>(std::ceil(last / step));
+    for (std::size_t i = 0; i < before_last; ++i)
+        frames.push_back(static_cast<double>(i) * step);
     frames.push_back(last);
     return frames;
 }
