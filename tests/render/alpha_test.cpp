@@ -182,7 +182,8 @@ Scene foggy_box(int open_masks)
 }
 
 /// The longest paths there are, through fog and many holes: not one is cut short, though llvmpipe
-/// ends all loops of an invocation after 65535 rounds together. 80 holes on a ray would be too many.
+/// ends all loops of an invocation after 65535 rounds together. 80 holes on a ray would be too
+/// many.
 TEST_F(BlendTest, OpenMasksCutNoLongPathShort)
 {
     const auto picture = [](const Scene& scene) {
