@@ -12,9 +12,6 @@
 namespace farlight {
 namespace {
 
-/// Special variants kept: an edit and its undoing find theirs again.
-constexpr std::size_t kMostVariants = 8;
-
 /// Room that general programs have for any scene; special ones have what theirs needs. A scene that
 /// needs more than this gets it, at the price of compiling when it is first drawn.
 constexpr std::pair<std::string_view, int> kGeneralRoom[] = {
@@ -31,12 +28,19 @@ bool is_effect(const std::pair<std::string, std::string>& define)
     return define.first.starts_with("FX_");
 }
 
-bool looks_into_scene(const ProgramKey& key)
+bool is_room(const std::pair<std::string, std::string>& define)
 {
-    return std::any_of(key.defines.begin(), key.defines.end(), [](const auto& define) {
-        return std::any_of(std::begin(kGeneralRoom), std::end(kGeneralRoom),
-            [&](const auto& room) { return room.first == define.first; });
-    });
+    return std::any_of(std::begin(kGeneralRoom), std::end(kGeneralRoom),
+        [&](const auto& room) { return room.first == define.first; });
+}
+
+/// What a program that looks into the scene has of the variant it was compiled for.
+Defines variant_part(const Defines& defines)
+{
+    Defines part;
+    std::copy_if(defines.begin(), defines.end(), std::back_inserter(part),
+        [](const auto& define) { return is_effect(define) || is_room(define); });
+    return part;
 }
 
 int value_of(const std::string& number)
@@ -209,9 +213,11 @@ void ScenePrograms::collect()
     }
 }
 
-/// Keeps the newest variants; forgets the programs of the oldest.
+/// Keeps the newest variants; forgets the programs of the oldest. The general one is always kept.
 void ScenePrograms::remember(const Variant& variant)
 {
+    if (variant.mask == EffectMask::general())
+        return;
     const auto same = [](const Variant& a) {
         return [&a](const Variant& b) { return a.inputs.defines == b.inputs.defines; };
     };
@@ -221,11 +227,7 @@ void ScenePrograms::remember(const Variant& variant)
         return;
     const Defines oldest = known_.front().inputs.defines;
     known_.erase(known_.begin());
-    programs_.drop([&](const ProgramKey& key) {
-        return looks_into_scene(key)
-            && std::search(key.defines.begin(), key.defines.end(), oldest.begin(), oldest.end())
-            != key.defines.end();
-    });
+    programs_.drop([&](const ProgramKey& key) { return variant_part(key.defines) == oldest; });
 }
 
 void ScenePrograms::prepare(

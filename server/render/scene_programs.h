@@ -13,6 +13,9 @@
 
 namespace farlight {
 
+/// Special variants kept: an edit and its undoing find theirs again.
+constexpr std::size_t kMostVariants = 8;
+
 /// What shaders that look into a scene are compiled with and bound to.
 struct Variant {
     EffectMask mask;
@@ -37,7 +40,9 @@ public:
     void follow(std::shared_ptr<const GpuScene> scene);
 
     /// What to draw the next frame with. `more`: effects called for by settings. The reference
-    /// stays valid until the next call.
+    /// stays valid until the next call. A list that lacks what the scene calls for gets it without
+    /// a word: server start, sessions and scene files refuse such a list, but one that was complete
+    /// lags behind where an edit has since added an effect, and a frame must still be right.
     const Variant& choose(const EffectChoice& choice, EffectMask more, const DeclareFrame& declare);
 
     /// Compiles the general programs of frame `all`, and lets the driver finish them where it does

@@ -1,6 +1,9 @@
 // Text to choice and back.
 #include "server/scene/effect_choice.h"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace farlight {
 
 EffectChoice parse_effect_choice(std::string_view text)
@@ -18,7 +21,13 @@ EffectChoice parse_effect_choice(std::string_view text)
             name.remove_prefix(1);
         names.push_back(name);
     }
-    return {EffectChoice::Kind::kList, EffectMask::of(names)};
+    const EffectMask mask = EffectMask::of(names);
+    for (const Effect& effect : effect_registry())
+        if (effect.macro.empty() && mask.has(effect.name))
+            throw std::invalid_argument("'" + std::string(effect.name)
+                + "' is no part of programs, the setting '" + std::string(effect.setting)
+                + "' controls it");
+    return {EffectChoice::Kind::kList, mask};
 }
 
 std::string to_text(const EffectChoice& choice)

@@ -18,7 +18,8 @@ struct EffectChoice {
 };
 
 /// "auto", "general", or effects by name with all they need: "fog,lens"; "" and spaces after commas
-/// are fine. Throws std::invalid_argument naming what is none of these.
+/// are fine. Throws std::invalid_argument naming what is none of these, or is controlled by
+/// another setting because nothing of it is compiled.
 EffectChoice parse_effect_choice(std::string_view text);
 /// The same the other way.
 std::string to_text(const EffectChoice& choice);

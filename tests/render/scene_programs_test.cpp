@@ -1,6 +1,7 @@
 // Which programs draw a scene, and that changing them, or the scene, between frames costs nobody
 // anything but what it must.
 #include "server/render/live_scene.h"
+#include "tests/scene/plain_scene.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/meshes.h"
 
@@ -18,6 +19,14 @@ Scene foggy(Scene scene)
 {
     scene.medium = {"haze", glm::vec3(0.1F), glm::vec3(0.1F), 0};
     return scene;
+}
+
+int needed_room(const GpuScene& gpu, const std::string& name)
+{
+    for (const auto& [define, value] : gpu.defines())
+        if (define == name)
+            return std::stoi(value);
+    return 0;
 }
 
 class SceneProgramsTest : public GlTest {
@@ -114,6 +123,86 @@ TEST_F(SceneProgramsTest, NoFrameLacksWhatAnEditHasBrought)
         View general(live.shared());
         EXPECT_EQ(draw(general, scene, kGeneral).image.bytes, shown.image.bytes);
     }
+}
+
+/// The same effects, but a deeper tree, or another array of textures.
+TEST_F(SceneProgramsTest, AnEditThatNeedsMoreRoomIsNotDrawnInLess)
+{
+    Scene painted = room_;
+    Material& paint = painted.materials[0];
+    paint.metallic = paint.roughness = 0.5F;
+    paint.albedo_texture = texture_of(painted, {kBlack, kWhite});
+    Scene deeper = painted;
+    deeper.meshes[0] = bumpy_sphere(120, 60);
+    Scene measured = painted;
+    measured.materials[0].metallic_roughness_texture = texture_of(measured, {kBlack, kTilted});
+
+    LiveScene live(context(), options_, [] {});
+    View view(live.shared());
+    const auto show = [&](const Scene& scene) {
+        live.show(load_onto_device(scene));
+        return draw(view, scene);
+    };
+    for (const Scene* more : {&deeper, &measured}) {
+        show(painted);
+        live.finish_programs();
+        const RenderedFrame small = draw(view, painted);
+        ASSERT_EQ(small.effects, mask_of(live.gpu().effects()));
+        const RenderedFrame large = show(*more);
+        ASSERT_EQ(mask_of(live.gpu().effects()), small.effects) << "another effect, mend the test";
+        bool needs_more = false;
+        for (std::size_t i = 0; i < small.constants.size(); ++i) {
+            const auto& [name, room] = large.constants[i];
+            const int needed = needed_room(live.gpu(), name);
+            EXPECT_GE(room, needed) << name;
+            needs_more = needs_more || needed > small.constants[i].second;
+        }
+        EXPECT_TRUE(needs_more) << "nothing is tested";
+    }
+}
+
+/// More variants than are kept, in a scene whose own macros are the end of another variant's.
+TEST_F(SceneProgramsTest, OnlyTheOldestVariantsLoseTheirPrograms)
+{
+    Scene ball;
+    ball.materials.push_back({"white"});
+    ball.objects.push_back({"ball", 0, Sphere{}});
+    ProgramCache programs;
+    ScenePrograms variants(programs, nullptr, nullptr, {});
+    variants.follow(std::make_shared<GpuScene>(ball));
+    const DeclareFrame declare = [](FrameGraph& graph, const SceneInputs& inputs) {
+        graph.add_pass("cheap", "tonemap/tonemap.comp").define(inputs.defines);
+    };
+    const auto keys_with = [&](const std::vector<std::string_view>& effects) {
+        const EffectChoice choice{EffectChoice::Kind::kList, EffectMask::of(effects)};
+        auto keys = programs_of(declare, variants.choose(choice, {}, declare).inputs);
+        for (const ProgramKey& key : keys)
+            programs.get(key);
+        return keys;
+    };
+    const auto has = [&](const std::vector<ProgramKey>& keys) {
+        return std::all_of(
+            keys.begin(), keys.end(), [&](const ProgramKey& key) { return programs.has(key); });
+    };
+    std::vector<std::vector<ProgramKey>> kept;
+    for (const char* effect :
+        {"spheres", "triangles", "disks", "mirror", "clearcoat", "unlit", "alpha", "fog"})
+        kept.push_back(keys_with({effect}));
+    ASSERT_EQ(kept.size(), kMostVariants);
+    const auto general = keys_with(EffectMask::general().names());
+    for (const auto& keys : kept)
+        EXPECT_TRUE(has(keys)) << "as many as are kept";
+    keys_with({"lens"});
+    EXPECT_FALSE(has(kept[0])) << "the oldest is still there";
+    for (std::size_t i = 1; i < kept.size(); ++i)
+        EXPECT_TRUE(has(kept[i])) << i;
+    keys_with({"triangles"});
+    keys_with({"textures"});
+    EXPECT_TRUE(has(kept[1])) << "chosen again";
+    EXPECT_FALSE(has(kept[2]));
+    for (const char* effect : {"lights", "background", "motion", "instances", "light_tree"})
+        keys_with({effect});
+    EXPECT_TRUE(has(general));
 }
 
 TEST_F(SceneProgramsTest, AListHoldsWhatTheSceneCallsForAnyway)

@@ -201,6 +201,44 @@ TEST(Neutral, HolesOfVertexColoursStay)
     }
 }
 
+/// Never changing, and not what holds without the track.
+Track constant_track(Track::Target target, const std::vector<float>& value)
+{
+    Track track;
+    track.target = target;
+    track.times = {0.5, 1};
+    track.values = value;
+    track.values.insert(track.values.end(), value.begin(), value.end());
+    return track;
+}
+
+TEST(Neutral, ConstantTracksAreFoldedIntoWhatTheyDrive)
+{
+    using Target = Track::Target;
+    Scene scene = plain();
+    scene.materials[0].emission = glm::vec3(2);
+    scene.lights.push_back({.name = "lamp", .intensity = glm::vec3(3)});
+    scene.background = glm::vec3(0.5F);
+    scene.meshes[0].morph_targets = {{{{0, 0, 2}, {0, 0, 0}, {0, 0, 0}}, {}}};
+    std::get<MeshInstance>(scene.objects[0].shape).morph_weights = {0};
+    scene.animation.tracks = {constant_track(Target::kTranslation, {1, 2, 3}),
+        constant_track(Target::kRotation, {0, 1, 0, 0}), constant_track(Target::kScale, {2, 2, 4}),
+        constant_track(Target::kMorphWeights, {0.25F}),
+        constant_track(Target::kMaterialEmission, {4}),
+        constant_track(Target::kLightIntensity, {5}), constant_track(Target::kBackground, {6})};
+    drop_neutral(scene);
+    EXPECT_TRUE(scene.animation.tracks.empty());
+    const Node& node = scene.animation.nodes[0];
+    EXPECT_EQ(node.translation, glm::dvec3(1, 2, 3));
+    EXPECT_EQ(node.rotation, glm::dquat(0, 0, 1, 0));
+    EXPECT_EQ(node.scale, glm::dvec3(2, 2, 4));
+    const auto& shape = std::get<MeshInstance>(scene.objects[0].shape);
+    EXPECT_EQ(scene.meshes[shape.mesh].positions[0], glm::vec3(0, 0, 0.5F));
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(8));
+    EXPECT_EQ(scene.lights[0].intensity, glm::vec3(15));
+    EXPECT_EQ(scene.background, glm::vec3(3));
+}
+
 Scene morphing(std::uint32_t objects)
 {
     Scene scene = plain();
