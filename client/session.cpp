@@ -1,6 +1,8 @@
 // Driving a session.
 #include "client/session.h"
 
+#include <algorithm>
+
 namespace farlight::client {
 
 using namespace protocol;
@@ -101,6 +103,27 @@ Inspection Session::inspect()
 {
     connection_.send(Inspect{});
     return wait_for<Inspection>([](const Inspection&) { return true; });
+}
+
+Inspection Session::await_own_programs(const Pose& pose, std::chrono::milliseconds patience)
+{
+    const auto begun = std::chrono::steady_clock::now();
+    while (true) {
+        draw(pose);
+        Inspection inspection = inspect();
+        if (drawn_with_own_programs(inspection)
+            || std::chrono::steady_clock::now() - begun >= patience)
+            return inspection;
+    }
+}
+
+bool drawn_with_own_programs(const Inspection& inspection)
+{
+    return std::all_of(
+        inspection.program.begin(), inspection.program.end(), [&](const std::string& name) {
+            return std::any_of(inspection.effects.begin(), inspection.effects.end(),
+                [&](const CalledEffect& effect) { return effect.name == name; });
+        });
 }
 
 }  // namespace farlight::client

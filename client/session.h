@@ -4,6 +4,7 @@
 #include "client/connection.h"
 #include "client/picture.h"
 
+#include <chrono>
 #include <map>
 
 namespace farlight::client {
@@ -26,6 +27,9 @@ struct RefusedError : SessionError {
 /// Thrown by receive functions when the server stays silent this long; a first frame may compile
 /// shaders.
 constexpr std::chrono::minutes kPatience{5};
+
+/// Whether the frame was drawn with programs that hold nothing but what is called for.
+bool drawn_with_own_programs(const protocol::Inspection& inspection);
 
 class Session {
 public:
@@ -50,6 +54,10 @@ public:
     protocol::SceneChanged edit(const nlohmann::json& merge_patch, bool reset = false);
     /// What the scene calls for, and what the last frame was drawn with.
     protocol::Inspection inspect();
+    /// Lockstep, with the setting `effects` at auto: draws until a frame came from the scene's own
+    /// programs, or `patience` has passed; what the last frame was drawn with.
+    protocol::Inspection await_own_programs(
+        const protocol::Pose& pose, std::chrono::milliseconds patience);
     void close() { connection_.close(); }
 
 private:

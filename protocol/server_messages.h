@@ -179,8 +179,9 @@ struct SceneChanged {
 };
 
 struct CalledEffect {
-    std::string name;  ///< As in the setting `effects`.
+    std::string name;
     std::string reason;
+    std::string setting;  ///< That calls for it; empty: the scene does.
 
     bool operator==(const CalledEffect&) const = default;
 
@@ -188,6 +189,7 @@ struct CalledEffect {
     {
         visit("name", m.name, Rule{});
         visit("reason", m.reason, Rule{});
+        visit("setting", m.setting, kOptional);
     }
 };
 

@@ -107,14 +107,8 @@ public:
     /// Draws until the server has compiled the scene's own programs beside it; how long that took.
     double await_own_programs()
     {
-        const Side own{.effects = "auto"};
-        const auto begun = std::chrono::steady_clock::now();
-        double ms = 0;
-        while (!(ms > 0) && std::chrono::steady_clock::now() - begun < kCompileTimeout) {
-            draw(own);
-            ms = inspect().compile_ms;
-        }
-        return ms;
+        choose("auto");
+        return session_.await_own_programs(welcome().camera, kCompileTimeout).compile_ms;
     }
 
     /// The first frame compiles; the later ones fill histories, and the server frees what only the
@@ -144,12 +138,17 @@ public:
     }
 
 private:
+    void choose(const std::string& effects)
+    {
+        if (effects == set_)
+            return;
+        session_.set("effects", effects);
+        set_ = effects;
+    }
+
     double draw(const Side& side)
     {
-        if (side.effects != set_) {
-            session_.set("effects", side.effects);
-            set_ = side.effects;
-        }
+        choose(side.effects);
         const double angle = kDegreesPerFrame * (frame_++ % 30);
         const auto header =
             session_.draw(orbit(welcome().camera, middle_of(welcome().scene), angle)).header;
@@ -168,7 +167,8 @@ Row measure(Bench& bench, const std::string& name, const std::string& more, int 
     const protocol::Inspection scene = bench.inspect();
     std::vector<std::string> names;
     for (const auto& effect : scene.effects)
-        names.push_back(effect.name);
+        if (effect.setting.empty())
+            names.push_back(effect.name);
     Row row;
     row.name = name;
     row.effects = join(names);

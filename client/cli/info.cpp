@@ -3,6 +3,8 @@
 #include "client/cli/target.h"
 #include "client/session.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -13,6 +15,7 @@ namespace {
 struct Options {
     TargetOptions target;
     bool json = false;
+    double wait = 60;  ///< For the scene's own programs [s].
 };
 
 /// "0 to 10", "none, svgf" or "true, false".
@@ -63,6 +66,16 @@ void print_texture_memory(const std::vector<protocol::MemoryUse>& uses)
             static_cast<unsigned long long>(sum));
 }
 
+/// Whether the programs become the scene's own by themselves, or stay what somebody asked for.
+bool chooses_by_itself(const protocol::Welcome& welcome)
+{
+    return std::any_of(
+        welcome.settings.begin(), welcome.settings.end(), [](const nlohmann::json& setting) {
+            return setting.value("key", "") == "effects"
+                && setting.value("value", nlohmann::json()) == "auto";
+        });
+}
+
 /// What one frame with default settings was drawn with.
 void print_inspection(const protocol::Inspection& inspection)
 {
@@ -95,6 +108,8 @@ void print_text(const protocol::Welcome& welcome, const protocol::Inspection& in
         std::cout << "note      " << note << "\n";
     for (const auto& [name, path] : welcome.camera_paths)
         std::cout << "path      " << name << ", frames 0 to " << path.back().frame << "\n";
+    if (chooses_by_itself(welcome) && !drawn_with_own_programs(inspection))
+        std::cout << "note      general programs; its own are not compiled yet\n";
     print_inspection(inspection);
     std::cout << "settings (value, what else it may be)\n" << std::flush;
     for (const auto& setting : welcome.settings)
@@ -107,8 +122,9 @@ int run(const Options& options)
 {
     const Target target(options.target);
     Session session(target.url(), target.hello(protocol::Mode::kLockstep, protocol::Format::kPng));
-    session.draw(session.welcome().camera);
-    const protocol::Inspection inspection = session.inspect();
+    const double wait = chooses_by_itself(session.welcome()) ? options.wait : 0;
+    const protocol::Inspection inspection = session.await_own_programs(
+        session.welcome().camera, std::chrono::milliseconds(std::lround(1000 * wait)));
     if (options.json) {
         const auto parsed = [](const protocol::ServerMessage& message) {
             return nlohmann::json::parse(protocol::encode(message));
@@ -134,6 +150,9 @@ Command add_info(CLI::App& farlight)
     options->target.add_to(*app);
     app->add_flag(
         "--json", options->json, "print the server's welcome message and inspection as JSON");
+    app->add_option("--wait", options->wait, "how long to wait for the scene's own programs [s]")
+        ->check(CLI::Range(0.0, 3600.0))
+        ->capture_default_str();
     return {app, [options] { return run(*options); }};
 }
 

@@ -23,14 +23,15 @@ export function memoryRows(rows) {
 export function programWords({ general, program, effects }, asked) {
     if (program.length === 0)
         return { kind: "", detail: "No frame has been drawn yet." };
-    const called = new Set(effects.map(({ name }) => name));
-    const unused = program.filter((name) => !called.has(name)).length;
-    const settings = unused ? `, and ${unused} that ${unused === 1 ? "a setting calls" : "settings call"} for` : "";
+    const called = effects.filter(({ setting }) => !setting).length;
+    const known = new Set(effects.map(({ name }) => name));
+    const bySettings = program.filter((name) => !known.has(name)).length + effects.length - called;
+    const settings = bySettings ? `, and ${bySettings} that ${bySettings === 1 ? "a setting calls" : "settings call"} for` : "";
     if (!general)
-        return { kind: "specialised", detail: `Holds the ${called.size} effects that this scene calls for${settings}; no other is compiled.` };
+        return { kind: "specialised", detail: `Holds the ${called} effects that this scene calls for${settings}; no other is compiled.` };
     return {
         kind: "general",
-        detail: `Holds all ${program.length} effects, of which this scene calls for ${called.size}. `
+        detail: `Holds all ${program.length} effects, of which this scene calls for ${called}. `
             + (asked === "general" ? "The setting “effects” asks for it." : "The scene's own program is being compiled and takes over by itself."),
     };
 }
@@ -94,7 +95,7 @@ export class Inspector {
         const others = program.filter((name) => !called.has(name));
         this.#nodes.body.replaceChildren(
             element("p", { className: "program", "data-kind": kind }, element("strong", {}, kind ? `${kind === "general" ? "General" : "Specialised"} program` : "No program yet"), element("span", {}, detail)),
-            element("h3", {}, "Effects this scene calls for"),
+            element("h3", {}, "Effects this scene and the settings call for"),
             element("dl", { className: "effects" }, ...effects.flatMap(({ name, reason }) =>
                 [element("dt", {}, name.replaceAll("_", " ")), element("dd", {}, reason)])),
             ...(others.length ? [element("h3", {}, "Compiled as well"), element("p", { className: "help" }, others.map((name) => name.replaceAll("_", " ")).join(", "))] : []),

@@ -29,14 +29,41 @@ std::optional<TextureHandle> add_debug_view(
     return plan.linear_output ? value : add_debug_display(graph, "debug_view", recipe, value);
 }
 
+bool is_lit(const FramePlan& plan)
+{
+    return plan.scatters && plan.settings.max_depth > 1;
+}
+
+bool is_denoised(const FramePlan& plan)
+{
+    return plan.settings.denoiser == Denoiser::kSvgf && is_lit(plan);
+}
+
+bool is_averaged(const FramePlan& plan)
+{
+    return plan.settings.denoiser == Denoiser::kAccumulate || plan.refine;
+}
+
 }  // namespace
+
+std::vector<ActiveEffect> effects_by_settings(const FramePlan& plan)
+{
+    std::vector<ActiveEffect> called;
+    if (is_averaged(plan) && plan.settings.antialiasing)
+        called.push_back({"antialiasing", "FX_ANTIALIASING",
+            plan.refine ? "setting antialiasing = true, in a picture that rests"
+                        : "setting antialiasing = true, with denoiser = accumulate"});
+    if (is_denoised(plan))
+        called.push_back({"denoising", "", "setting denoiser = svgf"});
+    return called;
+}
 
 TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan)
 {
     const RenderSettings& settings = plan.settings;
-    const bool lit = plan.scatters && settings.max_depth > 1;
-    const bool denoises = settings.denoiser == Denoiser::kSvgf && lit;
-    const bool averages = settings.denoiser == Denoiser::kAccumulate || plan.refine;
+    const bool lit = is_lit(plan);
+    const bool denoises = is_denoised(plan);
+    const bool averages = is_averaged(plan);
     const bool shows_raw =
         settings.view == DebugView::kRawRadiance || settings.view == DebugView::kSheet;
     FrameBuffers buffers;

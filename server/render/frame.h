@@ -19,6 +19,9 @@ struct FramePlan {
         false;  ///< The caller wants numbers (rgba32f), not display values (rgba8).
 };
 
+/// Effects that the frame's settings call for, whatever the scene is.
+std::vector<ActiveEffect> effects_by_settings(const FramePlan& plan);
+
 /// Declares the whole frame; returns the texture to read back, rgba8 or rgba32f.
 TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan);
 

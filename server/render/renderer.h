@@ -55,6 +55,7 @@ struct RenderedFrame {
     bool history_reset = false;  ///< This frame started without history.
     bool converged = false;  ///< accumulated_samples reached settings.still_samples.
     EffectMask effects;  ///< Held by the programs that drew it.
+    std::vector<ActiveEffect> by_settings;  ///< Effects that its settings called for.
     std::vector<std::pair<std::string, int>> constants;  ///< Compiled into them.
     double compile_ms = 0;  ///< Of the scene's own programs, in the background; 0: not yet.
     std::vector<std::pair<std::string, std::size_t>> memory;  ///< The view's textures [bytes].

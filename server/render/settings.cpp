@@ -95,17 +95,19 @@ void assign(float& member, std::string_view key, RealRange range, const json& va
 
 void assign(EffectChoice& member, std::string_view key, TextRule /*rule*/, const json& value)
 {
+    std::string problem;
     if (value.is_string()) {
         try {
             member = parse_effect_choice(value.get_ref<const std::string&>());
             return;
-        } catch (const std::invalid_argument&) {
+        } catch (const std::invalid_argument& reason) {
+            problem = std::string(" (") + reason.what() + ")";
         }
     }
     std::string names;
     for (const std::string_view name : EffectMask::general().names())
         names.append(", ").append(name);
-    refuse(key, value, "auto, general, or a list with commas of" + names.substr(1));
+    refuse(key, value, "auto, general, or a list with commas of" + names.substr(1) + problem);
 }
 
 /// The shortest decimal that reads back as the same float: 0.2, not 0.20000000298.

@@ -36,8 +36,9 @@ glm::vec2 jitter_of(int index)
 
 EffectMask effects_of(const FramePlan& plan)
 {
-    const bool averages = plan.refine || plan.settings.denoiser == Denoiser::kAccumulate;
-    return averages && plan.settings.antialiasing ? EffectMask::of({"antialiasing"}) : EffectMask();
+    std::vector<ActiveEffect> compiled = effects_by_settings(plan);
+    std::erase_if(compiled, [](const ActiveEffect& effect) { return effect.macro.empty(); });
+    return mask_of(compiled);
 }
 
 View::View(const SharedScene& scene)
@@ -150,6 +151,7 @@ void View::begin(const RenderRequest& request)
     frame_.moves = moves() && frame_.time >= request.time;
     frame_.history_reset = !has_history_;
     frame_.effects = variant.mask;
+    frame_.by_settings = effects_by_settings(plan);
     frame_.constants = variant.constants();
     frame_.compile_ms = scene_.scene_programs.last_compile_ms();
     const int averaged = mean_frames_ > 0 ? mean_frames_ : still_frames_;

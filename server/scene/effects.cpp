@@ -100,6 +100,11 @@ const std::vector<Effect>& effect_registry()
     return effects;
 }
 
+std::string_view setting_of(std::string_view effect)
+{
+    return effect_registry()[row_called(effect)].setting;
+}
+
 EffectMask mask_of_row(std::size_t row)
 {
     return EffectMask(std::uint64_t{1} << row);

@@ -55,6 +55,9 @@ struct Effect {
 /// Every effect known, in a fixed order.
 const std::vector<Effect>& effect_registry();
 
+/// The setting that calls for the effect; empty: scenes do.
+std::string_view setting_of(std::string_view effect);
+
 /// A set of effects.
 class EffectMask {
 public:

@@ -52,8 +52,11 @@ EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
 protocol::Inspection inspection_of(const RenderedFrame& frame)
 {
     protocol::Inspection inspection;
-    for (const std::string_view name : frame.effects.names())
+    for (const std::string_view name : (frame.effects | mask_of(frame.by_settings)).names())
         inspection.program.emplace_back(name);
+    for (const ActiveEffect& effect : frame.by_settings)
+        inspection.effects.push_back(
+            {std::string(effect.name), effect.reason, std::string(setting_of(effect.name))});
     for (const auto& [name, value] : frame.constants)
         inspection.constants.push_back({name, static_cast<std::uint64_t>(value)});
     inspection.general = frame.effects == EffectMask::general();

@@ -143,8 +143,10 @@ void Session::on(const protocol::Inspect& /*inspect*/, Time /*now*/)
 {
     protocol::Inspection inspection = last_frame_;
     const RendererDescription& description = *defaults_->description;
+    std::vector<protocol::CalledEffect> by_scene;
     for (const ActiveEffect& effect : description.effects)
-        inspection.effects.push_back({std::string(effect.name), effect.reason});
+        by_scene.push_back({std::string(effect.name), effect.reason, {}});
+    inspection.effects.insert(inspection.effects.begin(), by_scene.begin(), by_scene.end());
     for (const auto& [name, bytes] : description.allocations)
         inspection.scene_memory.push_back({name, bytes});
     effects_.push_back(effects::Say{std::move(inspection)});

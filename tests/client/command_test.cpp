@@ -80,11 +80,16 @@ TEST_F(CommandTest, InfoSaysWhatTheServerIs)
     EXPECT_THAT(text.out, HasSubstr("a note"));
     EXPECT_THAT(text.out, HasSubstr("same seed, same picture"));
     EXPECT_THAT(text.out, HasSubstr("fog: medium 'haze'"));
-    EXPECT_THAT(text.out, HasSubstr("program   fog, lens"));
+    EXPECT_THAT(text.out, HasSubstr("effect    denoising: setting denoiser = svgf\n"));
+    EXPECT_THAT(text.out, HasSubstr("program   fog, denoising\n"));
+    EXPECT_THAT(text.out, testing::Not(HasSubstr("not compiled yet")));
     EXPECT_THAT(text.out, HasSubstr("constants BVH_STACK_SIZE 9\n"));
     EXPECT_THAT(text.out, HasSubstr("bvh_nodes"));
     EXPECT_THAT(
         text.out, HasSubstr("textures  2 arrays with their mip levels, 100 of these bytes\n"));
+    const Outcome hasty = farlight("info --wait 0" + url);
+    EXPECT_THAT(hasty.out, HasSubstr("general programs; its own are not compiled yet\n"));
+    EXPECT_THAT(hasty.out, HasSubstr("program   fog, denoising, lens\n"));
     const Outcome json = farlight("info --json" + url);
     EXPECT_EQ(nlohmann::json::parse(json.out)["scene"]["name"], "Fake");
     EXPECT_EQ(nlohmann::json::parse(json.out)["inspection"]["view_memory"][0]["bytes"], 2048);

@@ -67,13 +67,23 @@ TEST(Session, LockstepGivesOneFrameACamera)
     session.close();
 }
 
+TEST(Session, WaitsForTheScenesOwnProgramsAndNoLongerThanItIsTold)
+{
+    FakeServer server([](FakePeer& peer) { serve_lockstep(peer, {}); });
+    Session session(server.url(), lockstep_hello);
+    const Pose pose = session.welcome().camera;
+    EXPECT_FALSE(drawn_with_own_programs(session.await_own_programs(pose, {})));
+    const Inspection own = session.await_own_programs(pose, std::chrono::minutes(5));
+    EXPECT_EQ(own.program, (std::vector<std::string>{"fog", "denoising"}));
+}
+
 TEST(Session, EditsAndInspects)
 {
     FakeServer server([](FakePeer& peer) { serve_lockstep(peer, {}); });
     Session session(server.url(), lockstep_hello);
     EXPECT_EQ(session.edit({{"medium", nullptr}}).edit, 1U);
     EXPECT_EQ(session.edit(nlohmann::json::object(), /*reset=*/true).edit, 2U);
-    EXPECT_EQ(session.inspect().program, (std::vector<std::string>{"fog", "lens"}));
+    EXPECT_EQ(session.inspect().program, (std::vector<std::string>{"fog", "denoising", "lens"}));
     try {
         session.edit({{"bad", 1}});
         FAIL() << "accepted";

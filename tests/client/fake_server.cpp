@@ -115,7 +115,8 @@ Welcome fake_welcome()
         {.frame = 0, .pose = welcome.camera}, {.frame = 4, .pose = welcome.camera}};
     welcome.camera_paths["push"][1].pose.position[2] = 1;
     welcome.settings = nlohmann::json::parse(
-        R"([{"key":"seed","type":"integer","value":0,"default":0,"lower":0,"upper":9,"help":"same seed, same picture"}])");
+        R"([{"key":"seed","type":"integer","value":0,"default":0,"lower":0,"upper":9,"help":"same seed, same picture"},
+            {"key":"effects","type":"text","value":"auto","default":"auto","help":"which programs"}])");
     welcome.limits.max_dimension = 1024;
     return welcome;
 }
@@ -181,6 +182,28 @@ struct FakeSession {
         std::memcpy(payload.data(), pixels.data(), payload.size());
         peer.send_frame(header, payload);
     }
+
+    /// Fog is all that the scene calls for; its own programs come late.
+    Inspection inspection() const
+    {
+        const auto asked = settings.find("effects");
+        const bool compiled = frames > renderer.own_after;
+        const bool general = asked == settings.end() || asked->second == "auto"
+            ? !compiled
+            : asked->second == "general";
+        Inspection inspection{.effects = {{"fog", "medium 'haze'", ""},
+                                  {"denoising", "setting denoiser = svgf", "denoiser"}},
+            .program = {"fog", "denoising"},
+            .constants = {{"BVH_STACK_SIZE", 9}},
+            .general = general,
+            .passes = {"path_trace"},
+            .scene_memory = {{"bvh_nodes", 1024}, {"texture_array_0", 40}, {"texture_array_1", 60}},
+            .view_memory = {{"gbuffer", 2048}},
+            .compile_ms = compiled ? 250.0 : 0.0};
+        if (general)
+            inspection.program.emplace_back("lens");
+        return inspection;
+    }
 };
 
 }  // namespace
@@ -214,14 +237,7 @@ void serve_lockstep(FakePeer& peer, const FakeRenderer& renderer)
             else
                 peer.send(SceneChanged{edit->id, welcome.scene, {}});
         } else if (std::holds_alternative<Inspect>(message)) {
-            peer.send(Inspection{.effects = {{"fog", "medium 'haze'"}},
-                .program = {"fog", "lens"},
-                .constants = {{"BVH_STACK_SIZE", 9}},
-                .passes = {"path_trace"},
-                .scene_memory = {{"bvh_nodes", 1024}, {"texture_array_0", 40},
-                    {"texture_array_1", 60}},
-                .view_memory = {{"gbuffer", 2048}},
-                .compile_ms = 250});
+            peer.send(session.inspection());
         } else if (std::holds_alternative<ClientBye>(message)) {
             return peer.close(1000, "");
         }

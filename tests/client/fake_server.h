@@ -63,6 +63,7 @@ private:
 struct FakeRenderer {
     bool ignores_seed = false;  ///< Draws something else each time: not deterministic.
     int nan_in_frame = -1;  ///< This frame holds one NaN.
+    std::uint32_t own_after = 3;  ///< Frames drawn by the general programs.
     std::string refuses_setting;  ///< This key is answered by an error.
 };
 

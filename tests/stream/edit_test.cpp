@@ -137,7 +137,10 @@ TEST(InspectTest, TellsWhatTheSceneCallsForAndWhatDrewTheLastFrame)
     client.next_frame();
     client.say(protocol::Inspect{});
     const auto after = client.next<protocol::Inspection>();
-    EXPECT_THAT(after.program, testing::ElementsAre("fog"));
+    EXPECT_THAT(after.effects,
+        testing::ElementsAre(before.effects[0],
+            protocol::CalledEffect{"denoising", "setting denoiser = svgf", "denoiser"}));
+    EXPECT_THAT(after.program, testing::ElementsAre("fog", "denoising"));
     EXPECT_THAT(
         after.constants, testing::ElementsAre(protocol::ProgramConstant{"BVH_STACK_SIZE", 9}));
     EXPECT_FALSE(after.general);

@@ -179,6 +179,7 @@ RenderedFrame FakeRenderer::draw(View& view, const RenderRequest& request) const
     if (!frame.error.empty())
         return frame;
     frame.effects = EffectMask::of({"fog"});
+    frame.by_settings = {{"denoising", "", "setting denoiser = svgf"}};
     frame.constants = {{"BVH_STACK_SIZE", 9}};
     frame.history_reset =
         !view.previous || request.reset_history || view.previous->extent != request.extent;
