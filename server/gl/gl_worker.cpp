@@ -1,6 +1,8 @@
 // One slot, newest wins.
 #include "server/gl/gl_worker.h"
 
+#include "server/gl/program.h"
+
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -34,12 +36,21 @@ void GlWorker::wait()
     changed_.wait(lock, [this] { return stopping_ || (!next_ && !busy_); });
 }
 
+bool GlWorker::idle()
+{
+    const std::lock_guard lock(mutex_);
+    return !next_ && !busy_;
+}
+
 void GlWorker::run()
 {
     // Frames go first: on Linux a priority belongs to the thread.
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
     try {
         context_->make_current();
+        // Used between jobs, when the programs of jobs are deleted.
+        const Program resting(
+            {"rest", "#version 450\nlayout(local_size_x = 1) in;\nvoid main() {}\n", {}});
         for (;;) {
             std::function<void()> job;
             {
@@ -52,11 +63,15 @@ void GlWorker::run()
                 job = std::exchange(next_, nullptr);
                 busy_ = true;
             }
+            glFinish();  // lets go of what has been deleted
             try {
                 job();
             } catch (const std::exception& problem) {
                 spdlog::error("in the background: {}", problem.what());
             }
+            glUseProgram(resting.id());
+            glDispatchCompute(1, 1, 1);
+            glFinish();
         }
     } catch (const std::exception& problem) {
         spdlog::error("no work in the background: {}", problem.what());

@@ -11,6 +11,9 @@
 
 namespace farlight {
 
+/// A program that a job has used may be deleted elsewhere while the worker is idle or gone, not
+/// while it is busy: Mesa 22.3 lets go of it at the worker's next flush, takes the bound program
+/// away with it, and does not notice; the next dispatch of the same program crashes (llvmpipe).
 class GlWorker {
 public:
     /// `main` must outlive the worker. Throws DeviceError.
@@ -25,6 +28,8 @@ public:
     void request(std::function<void()> job);
     /// Waits until there is nothing to do.
     void wait();
+    /// Whether there is nothing to do, until the next request().
+    bool idle();
 
 private:
     void run();

@@ -20,7 +20,10 @@ const Program& ProgramCache::get(const ProgramKey& key)
 
 void ProgramCache::adopt(const ProgramKey& key, std::unique_ptr<Program> program)
 {
-    programs_[key] = std::move(program);
+    std::unique_ptr<Program>& place = programs_[key];
+    if (place != nullptr)
+        dropped_.push_back(std::move(place));
+    place = std::move(program);
 }
 
 std::unique_ptr<Program> ProgramCache::take(const ProgramKey& key)

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace farlight {
 
@@ -39,19 +40,26 @@ public:
         return get(ProgramKey{shader, defines});
     }
     bool has(const ProgramKey& key) const { return programs_.contains(key); }
+    /// In the place of one that may be there, which is dropped.
     void adopt(const ProgramKey& key, std::unique_ptr<Program> program);
     /// Takes a program out, or nothing if it is not there.
     std::unique_ptr<Program> take(const ProgramKey& key);
-    /// Forgets programs whose key `unwanted` accepts.
+    /// Forgets programs whose key `unwanted` accepts; delete_dropped() deletes them.
     template <typename Unwanted> void drop(const Unwanted& unwanted)
     {
-        std::erase_if(programs_, [&](const auto& entry) { return unwanted(entry.first); });
+        for (auto& [key, program] : programs_)
+            if (unwanted(key))
+                dropped_.push_back(std::move(program));
+        std::erase_if(programs_, [](const auto& entry) { return entry.second == nullptr; });
     }
+    /// Not while another context is at work that has used one of them (gl_worker.h).
+    void delete_dropped() { dropped_.clear(); }
     std::size_t size() const { return programs_.size(); }
 
 private:
     const ProgramBinaries* binaries_;
     std::map<ProgramKey, std::unique_ptr<Program>> programs_;
+    std::vector<std::unique_ptr<Program>> dropped_;
 };
 
 }  // namespace farlight

@@ -56,6 +56,12 @@ LiveScene::LiveScene(
     shared_.software = context.device().software;
 }
 
+/// The worker goes first: it must not be at work when programs that it has made are deleted.
+LiveScene::~LiveScene()
+{
+    compiler_.reset();
+}
+
 void LiveScene::show(LoadedScene loaded)
 {
     loaded_ = std::move(loaded);

@@ -28,6 +28,9 @@ class LiveScene {
 public:
     /// `wake` is called on another thread when better programs have become ready.
     LiveScene(const Context& context, const RendererOptions& options, std::function<void()> wake);
+    ~LiveScene();
+    LiveScene(const LiveScene&) = delete;
+    LiveScene& operator=(const LiveScene&) = delete;
 
     /// Draws this from now on.
     void show(LoadedScene loaded);

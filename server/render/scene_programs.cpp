@@ -196,9 +196,11 @@ void ScenePrograms::ask_for(const Variant& variant, const DeclareFrame& declare)
         });
 }
 
-/// Takes over what has become ready.
+/// Takes over what has become ready; what nobody draws with any more goes.
 void ScenePrograms::collect()
 {
+    if (worker_ == nullptr || worker_->idle())
+        programs_.delete_dropped();
     std::vector<Finished> finished;
     {
         const std::lock_guard lock(background_->mutex);
