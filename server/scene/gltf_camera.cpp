@@ -25,6 +25,10 @@ constexpr double kLastFrame = 1e9;  // the protocol's
 constexpr std::size_t kMostKeyframes = 4096;
 constexpr std::size_t kMostCameras = 1024;
 
+/// An orthographic camera is drawn as a perspective one from afar: rays at the picture's edge
+/// differ by half this from those in its middle [degrees].
+constexpr double kOrthographicFov = 1;
+
 struct FoundCamera {
     std::size_t node;  // in the tree
     const Json* json;
@@ -32,9 +36,22 @@ struct FoundCamera {
     bool moves;
 };
 
+bool is_orthographic(const Json& camera)
+{
+    return camera["type"] == "orthographic";
+}
+
 double vertical_fov(const Json& camera)
 {
-    return glm::degrees(camera["perspective"]["yfov"].get<double>());
+    return is_orthographic(camera) ? kOrthographicFov
+                                   : glm::degrees(camera["perspective"]["yfov"].get<double>());
+}
+
+/// How far a perspective camera steps back from what the orthographic one looks at, to see as much.
+double distance_instead(const Json& camera)
+{
+    const double half_height = std::abs(camera["orthographic"]["ymag"].get<double>());
+    return usable_distance(half_height / std::tan(glm::radians(kOrthographicFov / 2)));
 }
 
 bool within_reach(const glm::dvec3& p)
@@ -54,6 +71,12 @@ std::optional<CameraPose> pose_at(
     if (!(glm::length(view) > 0) || !(glm::length(up) > 0) || !within_reach(position))
         return std::nullopt;
     const double ahead = glm::dot(bounds.center() - position, view);
+    if (is_orthographic(camera)) {
+        const glm::dvec3 target = position + std::max(ahead, 0.0) * view;
+        const CameraPose far{
+            target - distance_instead(camera) * view, target, up, kOrthographicFov};
+        return within_reach(far.position) ? std::optional(far) : std::nullopt;
+    }
     const double nearest = 2 * nearest_target(position, position);
     const double distance =
         usable_distance(ahead > nearest ? ahead : std::max(bounds.radius(), glm::length(position)));
@@ -172,10 +195,6 @@ void CameraReader::find()
             continue;
         const auto index = json["camera"].get<std::size_t>();
         const Json& camera = gltf_.list("cameras")[index];
-        if (camera["type"] != "perspective") {
-            ++orthographic_;
-            continue;
-        }
         if (cameras_.size() == kMostCameras) {
             ++too_many_;
             continue;
@@ -185,8 +204,11 @@ void CameraReader::find()
             name = json.value("name", "");
         if (name.empty())
             name = "camera " + std::to_string(index);
+        orthographic_ += is_orthographic(camera) ? 1 : 0;
         cameras_.push_back({i, &camera, std::move(name), rig_.moves(node)});
     }
+    std::stable_partition(cameras_.begin(), cameras_.end(),
+        [](const FoundCamera& camera) { return !is_orthographic(*camera.json); });
 }
 
 void CameraReader::sample_moving(std::vector<std::vector<CameraKeyframe>>& paths)
@@ -238,7 +260,7 @@ void CameraReader::add_notes() const
         if (count > 0)
             scene_.notes.push_back(std::to_string(count) + what);
     };
-    note(orthographic_, " orthographic cameras left out");
+    note(orthographic_, " orthographic cameras are perspective ones of 1 degree, seen from afar");
     note(too_many_, " cameras left out: at most " + std::to_string(kMostCameras) + " are read");
     note(without_direction_,
         " cameras left out: a scale of 0 leaves no direction, or they lie beyond 1e11");

@@ -5,7 +5,7 @@
 
 namespace farlight {
 
-/// The first perspective camera of the tree gives `scene` its camera; the others, and all that an
+/// The first camera of the tree, perspective ones before others, gives `scene` its own; the others, and all that an
 /// animation moves, become paths named after the camera. Whether there was one. The scene has its
 /// objects and what moves them. Throws SceneError.
 bool read_gltf_cameras(

@@ -74,8 +74,8 @@ private:
     }
     void check_camera(const Json& camera, const ScenePlace& place) const
     {
-        if (camera["type"] == "perspective" && !camera.contains("perspective"))
-            refuse(place, "no key \"perspective\"", "what its type says");
+        if (const auto type = camera["type"].get<std::string>(); !camera.contains(type))
+            refuse(place, "no key " + camera["type"].dump(), "what its type says");
     }
     void check_skin(const Json& skin, const ScenePlace& place) const;
     void check_animation(const Json& animation, const ScenePlace& place) const;

@@ -126,10 +126,15 @@ TEST_F(GltfLightTest, CamerasAfterTheFirstBecomePaths)
     }
     const Scene scene = load(gltf);
     EXPECT_EQ(scene.camera.position, glm::dvec3(0, 0, 4));
-    ASSERT_EQ(scene.camera_paths.size(), 1U);
+    ASSERT_EQ(scene.camera_paths.size(), 2U);
     ASSERT_EQ(scene.camera_paths.at("side").size(), 1U);
     EXPECT_EQ(scene.camera_paths.at("side")[0].pose.position, glm::dvec3(1, 0, 4));
-    EXPECT_THAT(scene.notes, Contains("1 orthographic cameras left out"));
+    // At the triangle's distance it sees one metre up and down, as its ymag says.
+    const CameraPose& flat = scene.camera_paths.at("camera 2")[0].pose;
+    EXPECT_EQ(flat.target, glm::dvec3(2, 0, 0));
+    EXPECT_NEAR(flat.position.z * std::tan(glm::radians(flat.vertical_fov_degrees / 2)), 1, 1e-12);
+    EXPECT_THAT(scene.notes,
+        Contains("1 orthographic cameras are perspective ones of 1 degree, seen from afar"));
 }
 
 /// The triangle, and cameras that an animation moves.
