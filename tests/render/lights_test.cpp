@@ -48,6 +48,19 @@ void place_light(Scene& scene, const std::variant<Sphere, Quad, MeshInstance, Di
     scene.objects.push_back({"light", 1, shape});
 }
 
+/// Light that the plane reflects, to 5 standard errors and `tolerance` times it.
+void expect_mean(
+    const TestScene& scene, double expected, double tolerance, int samples, bool light_sampling)
+{
+    RenderSettings s;
+    s.max_depth = 2;
+    s.light_sampling = light_sampling;
+    s.samples_per_pixel = samples;
+    const Estimate estimate = mean_radiance(scene, s, 8);
+    EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + tolerance * expected)
+        << (light_sampling ? "with" : "without") << " light sampling";
+}
+
 /// Lights over the plane; those with an extent have radiance 1.
 struct IrradianceCase {
     const char* name;
@@ -65,18 +78,10 @@ TEST_P(IrradianceTest, LightAndBsdfSamplingGiveTheClosedForm)
 {
     const TestScene scene(plane_under(GetParam().add_lights));
     const double expected = 0.5 / pi * GetParam().expected;
-    for (const bool light_sampling : {true, false}) {
-        if (!light_sampling && !GetParam().chance_finds_it)
-            continue;
-        RenderSettings s;
-        s.max_depth = 2;
-        s.light_sampling = light_sampling;
-        s.samples_per_pixel = GetParam().samples;
-        const Estimate estimate = mean_radiance(scene, s, 8);
-        // 2e-4: E changes by about that much over the piece of plane that is seen.
-        EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 2e-4 * expected)
-            << (light_sampling ? "with" : "without") << " light sampling";
-    }
+    // 2e-4: E changes by about that much over the piece of plane that is seen.
+    expect_mean(scene, expected, 2e-4, GetParam().samples, true);
+    if (GetParam().chance_finds_it)
+        expect_mean(scene, expected, 2e-4, GetParam().samples, false);
 }
 
 std::function<void(Scene&)> shape(const std::variant<Sphere, Quad, MeshInstance, Disk>& shape)
@@ -264,17 +269,10 @@ TEST_P(PatternTest, LightAndBsdfSamplingAgreeOnAQuadAndOnAMesh)
         for (const Light& light : packed.lights->all())
             EXPECT_GT(light.pmf, 0) << (mesh ? "mesh" : "quad");
         const double expected = 0.5 / pi * GetParam().expected;
-        for (const bool light_sampling : {true, false}) {
-            RenderSettings s;
-            s.max_depth = 2;
-            s.light_sampling = light_sampling;
-            s.samples_per_pixel = 64;
-            const Estimate estimate = mean_radiance(scene, s, 8);
-            // 3e-3: a wide ray sees the texels' edge blurred over up to a hundredth of the quad.
-            EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 3e-3 * expected)
-                << (mesh ? "mesh" : "quad") << (light_sampling ? " with" : " without")
-                << " light sampling";
-        }
+        SCOPED_TRACE(mesh ? "mesh" : "quad");
+        // 3e-3: a wide ray sees the texels' edge blurred over up to a hundredth of the quad.
+        for (const bool light_sampling : {true, false})
+            expect_mean(scene, expected, 3e-3, 64, light_sampling);
     }
 }
 
@@ -293,15 +291,8 @@ TEST_F(GlTest, LightAndBsdfSamplingAgreeOnATexturedDisk)
     }));
     // pi r^2 / (r^2 + h^2) times 128 of sRGB; the point light is behind the disc.
     const double expected = 0.5 / pi * pi / 5 * 0.2158605;
-    for (const bool light_sampling : {true, false}) {
-        RenderSettings s;
-        s.max_depth = 2;
-        s.light_sampling = light_sampling;
-        s.samples_per_pixel = 64;
-        const Estimate estimate = mean_radiance(scene, s, 8);
-        EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 2e-4 * expected)
-            << (light_sampling ? "with" : "without") << " light sampling";
-    }
+    for (const bool light_sampling : {true, false})
+        expect_mean(scene, expected, 2e-4, 64, light_sampling);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lights, PatternTest,
