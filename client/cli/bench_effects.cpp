@@ -265,13 +265,10 @@ void print_left_in(const Row& row)
 std::vector<Row> measure_scenes(
     const TargetOptions& options, const EffectsBenchOptions& bench_options)
 {
-    std::vector<std::string> scenes = bench_options.scenes;
-    if (scenes.empty())
-        scenes.push_back(options.scene);
     std::vector<Row> rows;
     if (!bench_options.json)
         print_scene_heading();
-    for (const std::string& scene : scenes) {
+    for (const std::string& scene : bench_options.scenes) {
         const ColdCaches cold;
         const Target target(options, scene);
         Bench bench(target);
@@ -289,8 +286,7 @@ std::vector<Row> measure_left_in(
     const TargetOptions& options, const EffectsBenchOptions& bench_options)
 {
     const ColdCaches cold;
-    const Target target(
-        options, bench_options.scenes.empty() ? options.scene : bench_options.scenes.front());
+    const Target target(options, bench_options.scenes.front());
     Bench bench(target);
     const std::string& name = bench.welcome().scene.name;
     std::vector<Row> rows;
@@ -307,8 +303,10 @@ std::vector<Row> measure_left_in(
 
 }  // namespace
 
-int bench_effects(const TargetOptions& options, const EffectsBenchOptions& bench_options)
+int bench_effects(const TargetOptions& options, EffectsBenchOptions bench_options)
 {
+    if (bench_options.scenes.empty())
+        bench_options.scenes.push_back(options.scene);
     const std::vector<Row> rows = measure_scenes(options, bench_options);
     const std::vector<Row> left_in =
         bench_options.leave_one_in ? measure_left_in(options, bench_options) : std::vector<Row>();

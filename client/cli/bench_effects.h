@@ -14,6 +14,6 @@ struct EffectsBenchOptions {
 
 /// Exit status: 1 where a scene's own programs are slower than 1.01 times the general ones for
 /// certain.
-int bench_effects(const TargetOptions& target, const EffectsBenchOptions& options);
+int bench_effects(const TargetOptions& target, EffectsBenchOptions options);
 
 }  // namespace farlight::client
