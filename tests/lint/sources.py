@@ -1,7 +1,8 @@
-# The files that lint looks at: the source tree without what is built or installed into it.
+# The files that lint looks at: the source tree without what is built or installed into it, and
+# without what others wrote (vendor).
 import os
 
-SKIPPED_FOLDERS = {".git", "build", "node_modules", "shared", "__pycache__"}
+SKIPPED_FOLDERS = {".git", "build", "node_modules", "shared", "vendor", "__pycache__"}
 
 
 def all_files():
