@@ -46,6 +46,10 @@ constexpr std::string_view kFormatNames[] = {"jpeg420", "jpeg444", "png", "raw"}
 enum class Afterwards : std::uint8_t { kRests, kRepeats, kGoesOn };
 constexpr std::string_view kAfterwardsNames[] = {"rests", "repeats", "goes_on"};
 
+/// Where a frontier comes from: a report that the server was given, or frames drawn so far.
+enum class FrontierSource : std::uint8_t { kReport, kLearnt };
+constexpr std::string_view kFrontierSourceNames[] = {"report", "learnt"};
+
 enum class ErrorCode : std::uint8_t {
     kNotJson,
     kUnknownType,
@@ -80,6 +84,10 @@ constexpr const auto& names_of(Format)
 constexpr const auto& names_of(Afterwards)
 {
     return kAfterwardsNames;
+}
+constexpr const auto& names_of(FrontierSource)
+{
+    return kFrontierSourceNames;
 }
 constexpr const auto& names_of(ErrorCode)
 {

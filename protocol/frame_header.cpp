@@ -110,10 +110,10 @@ std::vector<std::byte> encode_frame_header(const FrameHeader& header)
 
 Decoded<FrameView> decode_frame(std::span<const std::byte> message)
 {
-    if (message.size() < kFrameHeaderSize)
+    if (message.size() < kSmallestFrameHeaderSize)
         return refuse(ErrorCode::kOutOfRange, "",
             "has " + std::to_string(message.size()) + " bytes, expected at least "
-                + std::to_string(kFrameHeaderSize));
+                + std::to_string(kSmallestFrameHeaderSize));
     for (std::size_t i = 0; i < kFrameMagic.size(); ++i)
         if (std::to_integer<char>(message[i]) != kFrameMagic[i])
             return refuse(ErrorCode::kWrongType, "magic", "is not FARL");
@@ -124,7 +124,7 @@ Decoded<FrameView> decode_frame(std::span<const std::byte> message)
 
     const std::size_t header_size = get<std::uint16_t>(message, kHeaderSizeAt);
     const std::size_t passes_size = get<std::uint32_t>(message, kPassesSizeAt);
-    if (header_size < kFrameHeaderSize || header_size % kAlignment != 0
+    if (header_size < kSmallestFrameHeaderSize || header_size % kAlignment != 0
         || header_size > message.size())
         return refuse(ErrorCode::kOutOfRange, "header_size", "is " + std::to_string(header_size));
     if (passes_size % kAlignment != 0 || passes_size > message.size() - header_size)
@@ -132,7 +132,8 @@ Decoded<FrameView> decode_frame(std::span<const std::byte> message)
 
     FrameView view;
     FrameHeader::each_field(view.header, [&](std::size_t at, std::string_view, auto& member) {
-        member = get<std::remove_cvref_t<decltype(member)>>(message, at);
+        if (at + sizeof member <= header_size)
+            member = get<std::remove_cvref_t<decltype(member)>>(message, at);
     });
     if (static_cast<std::size_t>(view.header.format) >= std::size(kFormatNames))
         return refuse(ErrorCode::kOutOfRange, "format", "is unknown");

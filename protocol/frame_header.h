@@ -17,7 +17,9 @@ namespace farlight::protocol {
 
 constexpr std::array<char, 4> kFrameMagic{'F', 'A', 'R', 'L'};
 constexpr std::uint8_t kFrameVersion = 1;
-constexpr std::uint16_t kFrameHeaderSize = 80;  ///< [bytes] of the fixed part this version writes.
+constexpr std::uint16_t kFrameHeaderSize = 120;  ///< [bytes] of the fixed part this version writes.
+/// The fixed part that every v1 header has; fields beyond a header's end keep their defaults.
+constexpr std::uint16_t kSmallestFrameHeaderSize = 80;
 constexpr std::size_t kMaxPasses = 256;
 constexpr std::size_t kMaxPassNameBytes = 255;
 
@@ -39,6 +41,9 @@ struct PassEntry {
     bool operator==(const PassEntry&) const = default;
 };
 
+/// What estimates are before there is any.
+constexpr float kNotEstimated = std::numeric_limits<float>::quiet_NaN();
+
 struct FrameHeader {
     Format format = Format::kJpeg420;
     std::uint16_t flags = 0;
@@ -53,7 +58,7 @@ struct FrameHeader {
     std::uint16_t full_height = 0;
     std::uint32_t accumulated_samples = 0;
     float predicted_error =
-        std::numeric_limits<float>::quiet_NaN();  ///< relMSE; NaN: not estimated.
+        kNotEstimated;  ///< relMSE, from the noise that the filter lets through.
     std::uint32_t wait_us = 0;
     std::uint32_t trace_us = 0;
     std::uint32_t denoise_us = 0;
@@ -61,6 +66,17 @@ struct FrameHeader {
     std::uint32_t nonfinite_count = 0;
     float scene_time = 0;  ///< [s] that the picture shows; 0 where nothing follows time.
     std::uint64_t framebuffer_hash = 0;  ///< XXH64, seed 0, of the unencoded pixel bytes.
+    float predicted_lower = kNotEstimated;  ///< 95 % interval of predicted_error.
+    float predicted_upper = kNotEstimated;
+    float measured_error = kNotEstimated;  ///< relMSE against an independent mean.
+    float measured_lower = kNotEstimated;  ///< 95 % interval of measured_error.
+    float measured_upper = kNotEstimated;
+    std::uint32_t reference_samples = 0;  ///< A pixel, in the mean behind measured_error.
+    float effective_samples = kNotEstimated;  ///< A pixel, that a plain mean needs for this error.
+    float raw_error = kNotEstimated;  ///< relMSE of this frame's own samples without any filter.
+    std::uint32_t frame_us = 0;  ///< Whole frame on the device, what passes leave out included.
+    std::uint16_t samples_per_pixel = 0;  ///< In effect.
+    std::uint16_t rung = 0;  ///< 1-based point of the newest `frontier` that drew it; 0: none.
 
     std::vector<PassEntry> passes;  ///< In execution order.
 
@@ -89,6 +105,17 @@ struct FrameHeader {
         visit(64, "nonfinite_count", h.nonfinite_count);
         visit(68, "scene_time", h.scene_time);
         visit(72, "framebuffer_hash", h.framebuffer_hash);
+        visit(80, "predicted_lower", h.predicted_lower);
+        visit(84, "predicted_upper", h.predicted_upper);
+        visit(88, "measured_error", h.measured_error);
+        visit(92, "measured_lower", h.measured_lower);
+        visit(96, "measured_upper", h.measured_upper);
+        visit(100, "reference_samples", h.reference_samples);
+        visit(104, "effective_samples", h.effective_samples);
+        visit(108, "raw_error", h.raw_error);
+        visit(112, "frame_us", h.frame_us);
+        visit(116, "samples_per_pixel", h.samples_per_pixel);
+        visit(118, "rung", h.rung);
     }
 };
 

@@ -248,6 +248,44 @@ struct Inspection {
     }
 };
 
+/// A choice of settings, and what it costs and brings while the camera moves.
+struct FrontierPoint {
+    std::string label;
+    std::map<std::string, nlohmann::json> settings;  ///< That tell it from the others.
+    double ms = 0;  ///< A frame, without encoding.
+    std::optional<double> error;  ///< relMSE; absent: not known yet.
+    std::optional<double> lower;  ///< 95 % interval of `error`.
+    std::optional<double> upper;
+
+    bool operator==(const FrontierPoint&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("label", m.label, Rule{});
+        visit("settings", m.settings, Rule{});
+        visit("ms", m.ms, Rule{});
+        visit("error", m.error, Rule{});
+        visit("lower", m.lower, Rule{});
+        visit("upper", m.upper, Rule{});
+    }
+};
+
+/// What the server may choose among to keep a budget, at this session's size.
+struct Frontier {
+    static constexpr std::string_view kType = "frontier";
+
+    FrontierSource source = FrontierSource::kLearnt;
+    std::vector<FrontierPoint> points;  ///< Ascending in `ms`.
+
+    bool operator==(const Frontier&) const = default;
+
+    static void each_field(auto& m, auto&& visit)
+    {
+        visit("source", m.source, Rule{});
+        visit("points", m.points, Rule{});
+    }
+};
+
 struct ServerBye {
     static constexpr std::string_view kType = "bye";
 
@@ -264,6 +302,6 @@ struct ServerBye {
 };
 
 using ServerMessage =
-    std::variant<Welcome, State, Error, Pong, ServerBye, SceneChanged, Inspection>;
+    std::variant<Welcome, State, Error, Pong, ServerBye, SceneChanged, Inspection, Frontier>;
 
 }  // namespace farlight::protocol

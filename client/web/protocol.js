@@ -25,7 +25,10 @@ export const HEADER_FIELDS = [
     [38, "u16", "full_height"], [40, "u32", "accumulated_samples"], [44, "f32", "predicted_error"],
     [48, "u32", "wait_us"], [52, "u32", "trace_us"], [56, "u32", "denoise_us"],
     [60, "u32", "encode_us"], [64, "u32", "nonfinite_count"], [68, "f32", "scene_time"],
-    [72, "u64", "framebuffer_hash"],
+    [72, "u64", "framebuffer_hash"], [80, "f32", "predicted_lower"], [84, "f32", "predicted_upper"],
+    [88, "f32", "measured_error"], [92, "f32", "measured_lower"], [96, "f32", "measured_upper"],
+    [100, "u32", "reference_samples"], [104, "f32", "effective_samples"], [108, "f32", "raw_error"],
+    [112, "u32", "frame_us"], [116, "u16", "samples_per_pixel"], [118, "u16", "rung"],
 ];
 const SMALLEST_HEADER = 80;
 const MOST_PASSES = 256;
@@ -50,6 +53,7 @@ export const SERVER_MESSAGES = {
         "gl_renderer", "scene", "camera", "camera_paths", "effects", "settings", "limits"],
     scene_changed: ["scene", "effects"],
     inspection: ["effects", "program", "constants", "passes", "scene_memory", "view_memory", "compile_ms"],
+    frontier: ["source", "points"],
     state: ["settings", "size", "format"],
     error: ["code", "message", "fatal"],
     pong: ["t"],
@@ -106,13 +110,19 @@ const READERS = {
     u64: (view, offset) => view.getBigUint64(offset, true),
 };
 
+const BYTES = { u8: 1, u16: 2, u32: 4, f32: 4, u64: 8 };
+
+/** What fields beyond the end of an older server's header read as. */
+const ABSENT = { f32: NaN, u32: 0, u16: 0 };
+
 function readHeader(view) {
     if (view.byteLength < SMALLEST_HEADER)
         throw new ProtocolError(`a frame has ${view.byteLength} bytes, expected at least ${SMALLEST_HEADER}`);
     if (view.getUint32(0) !== 0x4641524c)
         throw new ProtocolError("a frame does not begin with FARL");
-    const header = Object.fromEntries(
-        HEADER_FIELDS.map(([offset, type, name]) => [name, READERS[type](view, offset)]));
+    const end = Math.min(Math.max(view.getUint16(6, true), SMALLEST_HEADER), view.byteLength);
+    const header = Object.fromEntries(HEADER_FIELDS.map(([offset, type, name]) =>
+        [name, offset + BYTES[type] <= end ? READERS[type](view, offset) : ABSENT[type]]));
     if (header.version !== 1)
         throw new ProtocolError(`a frame has version ${header.version}, expected 1`);
     if (header.header_size < SMALLEST_HEADER || header.header_size % 8 || header.passes_size % 8)

@@ -45,6 +45,8 @@ function hueColour(hue, light) {
     return [0, 1 / 3, 2 / 3].map((shift) => Math.round(255 * light * (0.5 + 0.45 * Math.cos(2 * Math.PI * (hue + shift)))));
 }
 
+const HEADER_SIZE = 120;
+
 function binaryFrame(fields, passes, payload) {
     const table = Buffer.concat(passes.map(({ name, ms }) => {
         const entry = Buffer.alloc(1 + Buffer.byteLength(name) + 4);
@@ -54,17 +56,17 @@ function binaryFrame(fields, passes, payload) {
         return entry;
     }));
     const padded = Math.ceil(table.length / 8) * 8;
-    const frame = Buffer.alloc(80 + padded + payload.length);
+    const frame = Buffer.alloc(HEADER_SIZE + padded + payload.length);
     frame.write("FARL", 0, "latin1");
-    const all = { version: 1, header_size: 80, pass_count: passes.length, passes_size: padded, payload_size: payload.length, ...fields };
+    const all = { version: 1, header_size: HEADER_SIZE, pass_count: passes.length, passes_size: padded, payload_size: payload.length, ...fields };
     for (const [offset, type, name] of HEADER_FIELDS) {
         if (type === "f32")
             frame.writeFloatLE(all[name] ?? NaN, offset);
         else if (type !== "u64")
             frame.writeUIntLE(all[name] ?? 0, offset, SIZES[type]);
     }
-    table.copy(frame, 80);
-    payload.copy(frame, 80 + padded);
+    table.copy(frame, HEADER_SIZE);
+    payload.copy(frame, HEADER_SIZE + padded);
     return frame;
 }
 

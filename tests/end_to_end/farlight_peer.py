@@ -40,6 +40,9 @@ HEADER = [
     (60, "I", "encode_us"),
     (64, "I", "nonfinite_count"),
     (72, "Q", "framebuffer_hash"),
+    (88, "f", "measured_error"),
+    (112, "I", "frame_us"),
+    (116, "H", "samples_per_pixel"),
 ]
 
 

@@ -181,6 +181,8 @@ TEST(ProtocolDocument, FieldTablesEqualTheCode)
     EXPECT_THAT(rows_in_page("4/effect"), ElementsAreArray(rows_in_code<CalledEffect>()));
     EXPECT_THAT(rows_in_page("4/constant"), ElementsAreArray(rows_in_code<ProgramConstant>()));
     EXPECT_THAT(rows_in_page("4/memory"), ElementsAreArray(rows_in_code<MemoryUse>()));
+    EXPECT_THAT(rows_in_page("4/frontier"), ElementsAreArray(rows_in_code<Frontier>()));
+    EXPECT_THAT(rows_in_page("4/point"), ElementsAreArray(rows_in_code<FrontierPoint>()));
     EXPECT_THAT(rows_in_page("4/pong"), ElementsAreArray(rows_in_code<Pong>()));
     EXPECT_THAT(rows_in_page("4/bye"), ElementsAreArray(rows_in_code<ServerBye>()));
 }
@@ -224,7 +226,7 @@ TEST(ProtocolDocument, FrameTableEqualsTheCode)
         EXPECT_EQ(page["`" + std::string(name) + "`"], std::pair(at, type)) << name;
     });
     EXPECT_EQ(page["`magic`"], std::pair(std::size_t{0}, std::string("u8[4]")));
-    EXPECT_EQ(page.size(), 5 + 19U) << "5 derived fields and those of each_field";
+    EXPECT_EQ(page.size(), 5 + 30U) << "5 derived fields and those of each_field";
 }
 
 TEST(ProtocolDocument, FlagTableEqualsTheCode)

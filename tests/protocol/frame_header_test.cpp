@@ -50,7 +50,12 @@ TEST(FrameHeader, PageExampleReadsAsThePageSays)
     EXPECT_EQ(header.camera_sequence, 41U);
     EXPECT_EQ(header.session_epoch, 1U);
     EXPECT_EQ(header.accumulated_samples, 1U);
-    EXPECT_TRUE(std::isnan(header.predicted_error));
+    EXPECT_EQ(header.predicted_error, 0.25F);
+    EXPECT_EQ(header.predicted_upper, 0.5F);
+    EXPECT_TRUE(std::isnan(header.measured_error));
+    EXPECT_EQ(header.effective_samples, 2);
+    EXPECT_EQ(header.frame_us, 23000U);
+    EXPECT_EQ(header.samples_per_pixel, 1U);
     EXPECT_EQ(header.wait_us, 850U);
     EXPECT_EQ(header.trace_us, 13750U);
     EXPECT_EQ(header.denoise_us, 9000U);
@@ -108,13 +113,26 @@ TEST(FrameHeader, LongPassNamesAreCutAtACharacter)
 TEST(FrameHeader, BytesOfALongerHeaderAreSkipped)
 {
     Bytes bytes = example_frame();
-    bytes[6] = std::byte{88};
-    bytes.insert(bytes.begin() + 80, 8, std::byte{0xEE});
+    bytes[6] = std::byte{kFrameHeaderSize + 8};
+    bytes.insert(bytes.begin() + kFrameHeaderSize, 8, std::byte{0xEE});
     const auto decoded = decode_frame(bytes);
     const auto* frame = std::get_if<FrameView>(&decoded);
     ASSERT_NE(frame, nullptr);
     EXPECT_EQ(frame->header.passes.at(1).name, "path_trace");
     EXPECT_EQ(frame->payload.size(), 24U);
+}
+
+TEST(FrameHeader, FieldsBeyondAnOlderHeaderAreUnknown)
+{
+    Bytes bytes = example_frame();
+    bytes[6] = std::byte{kSmallestFrameHeaderSize};
+    bytes.erase(bytes.begin() + kSmallestFrameHeaderSize, bytes.begin() + kFrameHeaderSize);
+    const auto decoded = decode_frame(bytes);
+    const auto* frame = std::get_if<FrameView>(&decoded);
+    ASSERT_NE(frame, nullptr);
+    EXPECT_TRUE(std::isnan(frame->header.raw_error));
+    EXPECT_EQ(frame->header.frame_us, 0U);
+    EXPECT_EQ(frame->header.passes.at(1).name, "path_trace");
 }
 
 struct BadFrame {
@@ -141,7 +159,8 @@ INSTANTIATE_TEST_SUITE_P(Frames, FrameRefuses,
         BadFrame{"OddHeader", 6, 81, "header_size"}, BadFrame{"LongHeader", 7, 9, "header_size"},
         BadFrame{"OddTable", 12, 33, "passes_size"}, BadFrame{"LongTable", 15, 255, "passes_size"},
         BadFrame{"PassCount", 10, 4, "passes"}, BadFrame{"ManyPasses", 11, 2, "pass_count"},
-        BadFrame{"PassName", 80, 200, "passes"}, BadFrame{"Payload", 28, 25, "payload_size"}),
+        BadFrame{"PassName", kFrameHeaderSize, 200, "passes"},
+        BadFrame{"Payload", 28, 25, "payload_size"}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(FrameHeader, EveryTruncationIsRefused)
