@@ -1,15 +1,48 @@
-// Percentile bootstrap over pairs.
+// Percentile and studentised bootstrap.
 #include "client/metrics/bootstrap.h"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <random>
 
 namespace farlight::client {
 namespace {
 
 constexpr int kResamples = 2000;  // the interval's ends then vary by about 1 % of its width
+constexpr int kStudentResamples = 1000;  // each with a jackknife inside
 constexpr double kOutside = 0.025;  // on either side
+
+double sorted_at(const std::vector<double>& sorted, double share)
+{
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+}
+
+Interval middle_of(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return {sorted_at(values, kOutside), sorted_at(values, 1 - kOutside)};
+}
+
+/// Leaves out one run at a time.
+double jackknife_error(std::span<const std::size_t> runs, const StatisticOfRuns& statistic)
+{
+    const std::size_t n = runs.size();
+    std::vector<std::size_t> others(runs.begin() + 1, runs.end());
+    std::vector<double> values;
+    for (std::size_t i = 0; i < n; ++i) {
+        values.push_back(statistic(others));
+        if (i + 1 < n)
+            others[i] = runs[i];
+    }
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(n);
+    double squares = 0;
+    for (const double value : values)
+        squares += (value - mean) * (value - mean);
+    return std::sqrt(squares * static_cast<double>(n - 1) / static_cast<double>(n));
+}
 
 }  // namespace
 
@@ -40,11 +73,54 @@ RatioOfMedians ratio_of_medians(const std::vector<double>& a, const std::vector<
         }
         ratios.push_back(median(some_a) / median(some_b));
     }
-    std::sort(ratios.begin(), ratios.end());
-    const auto at = [&](double share) {
-        return ratios[static_cast<std::size_t>(share * (kResamples - 1))];
+    return {median(a) / median(b), middle_of(std::move(ratios))};
+}
+
+Estimate estimate_median(const std::vector<double>& values)
+{
+    const RatioOfMedians r = ratio_of_medians(values, std::vector<double>(values.size(), 1));
+    return {r.ratio, r.interval};
+}
+
+Estimate estimate_mean(const std::vector<double>& values)
+{
+    assert(!values.empty());
+    const auto mean = [&](std::span<const std::size_t> runs) {
+        double sum = 0;
+        for (const std::size_t run : runs)
+            sum += values[run];
+        return sum / static_cast<double>(runs.size());
     };
-    return {median(a) / median(b), {at(kOutside), at(1 - kOutside)}};
+    if (values.size() >= 3)
+        return estimate_by_runs(values.size(), mean);
+    constexpr double kEndless = std::numeric_limits<double>::infinity();
+    const double value =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    return {value, {-kEndless, kEndless}};
+}
+
+Estimate estimate_by_runs(std::size_t runs, const StatisticOfRuns& statistic)
+{
+    assert(runs >= 3);
+    std::vector<std::size_t> all(runs);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const double value = statistic(all);
+    const double error = jackknife_error(all, statistic);
+    std::mt19937 random(1);
+    std::uniform_int_distribution<std::size_t> pick(0, runs - 1);
+    std::vector<double> deviations;
+    std::vector<std::size_t> some(runs);
+    for (int i = 0; i < kStudentResamples; ++i) {
+        std::generate(some.begin(), some.end(), [&] { return pick(random); });
+        const double some_error = jackknife_error(some, statistic);
+        const double deviation = (statistic(some) - value) / some_error;
+        if (std::isfinite(deviation))  // not so where too few different runs were drawn
+            deviations.push_back(deviation);
+    }
+    if (deviations.empty())
+        return {value, {value, value}};  // all runs are equal
+    const Interval t = middle_of(std::move(deviations));
+    return {value, {value - t.upper * error, value - t.lower * error}};
 }
 
 }  // namespace farlight::client

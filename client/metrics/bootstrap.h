@@ -1,6 +1,9 @@
-// Intervals of medians and ratios by resampling, for times that follow no known distribution.
+// Intervals by resampling, for what follows no known distribution.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,11 @@ struct Interval {
     double upper = 0;
 };
 
+struct Estimate {
+    double value = 0;
+    Interval interval;
+};
+
 /// median(a) / median(b) of times taken in pairs, so that what slows both down at once cancels.
 /// Seeded: equal input gives the equal interval. Both of equal length, at least 1.
 /// Source: Efron 1979, "Bootstrap Methods: Another Look at the Jackknife" (percentile interval).
@@ -20,6 +28,20 @@ struct RatioOfMedians {
     Interval interval;
 };
 RatioOfMedians ratio_of_medians(const std::vector<double>& a, const std::vector<double>& b);
+
+/// The median and its percentile interval, seeded likewise. At least 1 value.
+Estimate estimate_median(const std::vector<double>& values);
+
+/// The mean and its interval; one value has an endless one. See estimate_by_runs().
+Estimate estimate_mean(const std::vector<double>& values);
+
+/// A statistic of runs, named by their indices; the same run may be named more than once.
+using StatisticOfRuns = std::function<double(std::span<const std::size_t> runs)>;
+/// Studentised bootstrap over few (at least 3) independent runs, with the jackknife's standard
+/// error inside and out: the percentile interval of ten runs holds the truth in 90 of 100 cases
+/// only. Seeded. Source: Efron, Tibshirani 1993, "An Introduction to the Bootstrap",
+/// sections 11.5, 12.5.
+Estimate estimate_by_runs(std::size_t runs, const StatisticOfRuns& statistic);
 
 /// 0 of no values.
 double median(std::vector<double> values);

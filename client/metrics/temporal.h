@@ -1,0 +1,47 @@
+// Metrics of sequences: unrest at rest, how long a change takes to show, what the old picture
+// leaves.
+#pragma once
+
+#include "client/metrics/metrics.h"
+
+namespace farlight::client {
+
+/// Takes frames one by one and keeps three numbers a pixel. Camera and lights at rest, warmed up,
+/// and 64 frames or more make figures that can be compared.
+class FlickerMeter {
+public:
+    /// Linear RGB, all frames of one size. Throws MetricError when a value is not finite.
+    void add(std::span<const float> frame);
+
+    int frames() const { return frames_; }
+    /// Mean over the pixels that count of std_t(L) / (mean_t(L) + 0.01), with the deviation that
+    /// divides by one less than the frames. Throws MetricError for fewer than two frames.
+    double flicker(Mask mask = {}) const;
+    /// Mean of |L_t - L_(t-1)| over pixels and pairs of frames; SVGF's measure (Schied et al. 2017,
+    /// section 5). Throws likewise.
+    double successive_difference(Mask mask = {}) const;
+
+private:
+    void expect_pairs(Mask mask) const;
+
+    int frames_ = 0;
+    std::vector<double> mean_;
+    std::vector<double> squares_;  ///< Sum of squared differences from the mean (Welford 1962).
+    std::vector<double> steps_;  ///< Sum of |L_t - L_(t-1)|.
+    std::vector<double> last_;
+};
+
+/// Frames after a step change until the error is below 2 times what it settles at: 0 if the first
+/// frame's is. `errors` are those of the frame that first shows the change and all after it,
+/// against the reference of the new state; the last one is what they settle at. Their number if
+/// none is. Throws MetricError without errors.
+int lag_frames(std::span<const double> errors);
+
+/// Residual energy: error `frames_after` the step over that of the step itself, for step responses.
+double residual(std::span<const double> errors, std::size_t frames_after);
+
+/// Largest |x - r| / (r + 0.01) of the pixels that `revealed` counts; throws MetricError when there
+/// is none.
+double ghost_residue(std::span<const float> test, std::span<const float> reference, Mask revealed);
+
+}  // namespace farlight::client
