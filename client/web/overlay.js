@@ -1,5 +1,6 @@
 // The statistics over the picture: what moves, how late it is, and where the milliseconds go.
 import { bytesShort, element, fixed } from "./dom.js";
+import { errorNumber, errorOf } from "./frontier.js";
 
 const REFRESH_MS = 250;   // more often, numbers cannot be read
 const FORMAT_NAMES = { jpeg420: "JPEG 4:2:0", jpeg444: "JPEG 4:4:4", png: "PNG", raw: "raw float" };
@@ -16,6 +17,7 @@ export const FIGURES = [
     ["network", "Round trip", "a ping to the server and back, median of the last two minutes"],
     ["picture", "Picture", "size and format of the newest frame"],
     ["traffic", "Traffic", "size of the newest frame, and bytes received a second"],
+    ["error", "Error", "relMSE = mean((x − r)² / (r² + 0.01)): predicted while moving, measured while still"],
     ["samples", "Samples", "paths a pixel in this picture since camera or settings last changed"],
     ["nonfinite", "Non-finite", "NaN and infinite values met while drawing; 0 in a healthy picture"],
 ];
@@ -25,6 +27,17 @@ export function stateOf({ flags }) {
     if (flags.converged)
         return flags.lossless ? "Final, lossless" : "Final";
     return flags.still ? "Refining" : "Moving";
+}
+
+/** A picture traced at less than its full size says so. */
+function sizeWords({ width, height, full_width, full_height, format }) {
+    const whole = width === full_width && height === full_height;
+    return `${width} × ${height}${whole ? "" : ` of ${full_width} × ${full_height}`} ${FORMAT_NAMES[format]}`;
+}
+
+function errorWords(header) {
+    const error = errorOf(header);
+    return error ? `${errorNumber(error.value)} ${error.measured ? "measured" : "predicted"}` : "";
 }
 
 function passRow(name) {
@@ -122,13 +135,15 @@ export class Overlay {
             decode: `${fixed(decodeMs)} ms`,
             shown: `${fixed(shownMs)} ms`,
             network: `${fixed(this.#statistics.roundTrip())} ms`,
-            picture: `${header.width} × ${header.height} ${FORMAT_NAMES[header.format]}`,
+            picture: sizeWords(header),
             traffic: bytesShort(bytes) + (done ? "" : `, ${bytesShort(rate.bytes)}/s`),
+            error: errorWords(header),
             samples: `${header.accumulated_samples} a pixel`,
             nonfinite: String(header.nonfinite_count),
         };
         for (const [key, text] of Object.entries(figures))
             this.#cells[key].textContent = text;
+        this.#cells.error.parentElement.hidden = figures.error === "";
         this.#cells.nonfinite.classList.toggle("bad", header.nonfinite_count !== 0);
         STAGES.forEach((stage, i) => {
             this.#bar[stage].style.flexGrow = times[i];

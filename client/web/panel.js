@@ -1,9 +1,11 @@
 // The settings the server offers, as rows of controls. The page knows no
-// setting but the three it puts on top and those of time, which have controls of their own.
+// setting but the three it puts on top and those of time and accuracy, which have controls of their own.
 import { element } from "./dom.js";
 import { settingRow } from "./controls.js";
 
-const ELSEWHERE = ["play", "time", "time_step"];  // the time line's; the step is for recordings
+const BUDGETS = ["budget_ms", "target_error"];
+const ELSEWHERE = ["play", "time", "time_step",  // the time line's; the step is for recordings
+    ...BUDGETS, "wipe_left", "wipe_right", "wipe_position"];
 const ON_TOP = ["denoiser", "samples_per_pixel", "view"];
 
 export class Panel {
@@ -27,11 +29,16 @@ export class Panel {
     }
 
     #changedRows() {
-        return Object.keys(this.changed()).filter((key) => this.#rows.has(key));
+        return Object.keys(this.changed()).filter((key) => this.#rows.has(key) || BUDGETS.includes(key));
     }
 
     values() {
         return Object.fromEntries(this.#values);
+    }
+
+    /** True when the server has answered everything that was asked of it. */
+    get settled() {
+        return this.#unanswered === 0 && this.#wanted.size === 0;
     }
 
     /** The list in `welcome`. Rows are made anew only when the server offers others than before. */
@@ -62,10 +69,11 @@ export class Panel {
 
     /** A refusal: true if it is about a setting, which then shows the value that holds and the reason. */
     complain(key, text) {
+        if (this.#described.has(key))
+            this.#unanswered = Math.max(0, this.#unanswered - 1);
         const row = this.#rows.get(key);
         if (!row)
             return false;
-        this.#unanswered = Math.max(0, this.#unanswered - 1);
         row.show(this.#values.get(key));
         row.complain(text);
         return true;
@@ -74,7 +82,7 @@ export class Panel {
     #build(settings) {
         const shown = settings.filter(({ key }) => !ELSEWHERE.includes(key));
         this.#rows = new Map(shown.map((setting) =>
-            [setting.key, settingRow(setting, (value) => this.#change(setting.key, value))]));
+            [setting.key, settingRow(setting, (value) => this.ask(setting.key, value))]));
         const rank = (setting) => ON_TOP.indexOf(setting.key);
         const top = shown.filter((setting) => rank(setting) >= 0).sort((a, b) => rank(a) - rank(b));
         const rest = shown.filter((setting) => rank(setting) < 0);
@@ -84,7 +92,7 @@ export class Panel {
     }
 
     /** A slider in motion asks once a screen frame at most; only its newest value counts. */
-    #change(key, value) {
+    ask(key, value) {
         if (this.#wanted.size === 0)
             requestAnimationFrame(() => this.#flush());
         this.#wanted.set(key, value);
@@ -97,12 +105,12 @@ export class Panel {
             if (this.#send(key, value))
                 ++this.#unanswered;
             else
-                this.#rows.get(key).show(this.#values.get(key));
+                this.#rows.get(key)?.show(this.#values.get(key));
         }
     }
 
     #resetEverything() {
         for (const key of this.#changedRows())
-            this.#change(key, this.#described.get(key).default);
+            this.ask(key, this.#described.get(key).default);
     }
 }

@@ -70,12 +70,14 @@ export class Presenter {
         if (!frame)
             return;
         this.#ready = null;
-        const { bitmap } = frame;
-        if (this.#canvas.width !== bitmap.width || this.#canvas.height !== bitmap.height) {
-            this.#canvas.width = bitmap.width;
-            this.#canvas.height = bitmap.height;
+        const { bitmap, header } = frame;
+        // A picture traced at a smaller size is shown, and saved, at its full one.
+        const [width, height] = [header.full_width || bitmap.width, header.full_height || bitmap.height];
+        if (this.#canvas.width !== width || this.#canvas.height !== height) {
+            this.#canvas.width = width;
+            this.#canvas.height = height;
         }
-        this.#context.drawImage(bitmap, 0, 0);
+        this.#context.drawImage(bitmap, 0, 0, width, height);
         bitmap.close();
         frame.shownMs = performance.now() - frame.arrivedAt;
         this.#on.shown(frame);

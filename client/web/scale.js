@@ -20,6 +20,11 @@ function geometric(smallest, upper) {
     return stops;
 }
 
+/** Round numbers on a logarithmic scale from `lower` to `upper`, both among them; both above 0. */
+export function roundStops(lower, upper) {
+    return [...new Set([lower, ...geometric(lower, upper).filter((x) => x > lower && x < upper), upper])];
+}
+
 function linear(lower, upper, step) {
     const stops = [];
     for (let i = Math.ceil(lower / step); i * step <= upper; ++i)

@@ -1,4 +1,5 @@
 // The viewer page: builds its parts and passes between them what the server says and what people do.
+import { Accuracy } from "./accuracy.js";
 import { attachInput } from "./input.js";
 import { Connection } from "./connection.js";
 import { element } from "./dom.js";
@@ -13,6 +14,8 @@ import { SceneEditor } from "./scene_editor.js";
 import { Statistics } from "./statistics.js";
 import { Steering } from "./steering.js";
 import { TimeBar } from "./time_bar.js";
+import { Views } from "./views.js";
+import { Wipe } from "./wipe.js";
 
 const CLIENT = "farlight web viewer 1";
 const MICROSECONDS = 1000; // in a millisecond
@@ -48,6 +51,22 @@ const editor = new SceneEditor({ patch: at("patch"), apply: at("patch-apply"), r
 const panel = new Panel({ top: at("settings-top"), rest: at("settings-rest"), count: at("settings-count"), resetAll: at("settings-reset") },
     (key, value) => connection.send("set", { key, value }));
 
+const ask = (key, value) => panel.ask(key, value);
+
+const accuracy = new Accuracy({
+    box: at("accuracy"), word: at("accuracy-word"), absent: at("accuracy-absent"), figure: at("frontier"),
+    plot: at("frontier-plot"), caption: at("frontier-word"), rows: at("accuracy-rows"),
+    goal: {
+        box: at("goal"), kinds: at("goal-kinds"), slider: at("goal-slider"), label: at("goal-label"), unit: at("goal-unit"),
+        range: at("goal-range"), number: at("goal-number"), ticks: at("goal-ticks"), ends: at("goal-ends"), word: at("goal-word"),
+    },
+}, ask, () => statistics.roundTrip());
+
+const views = new Views(at("views"), at("view-legend"), ask);
+
+const wipe = new Wipe({ box: at("wipe"), line: at("wipe-line"), left: at("wipe-left"), right: at("wipe-right"), stage: at("stage"), picture: at("picture") },
+    ask, (position) => connection.send("set", { key: "wipe_position", value: position }));
+
 const options = new PictureOptions(at("size"), at("format"), at("stage"), (type, fields) => connection.send(type, fields));
 
 const presenter = new Presenter(at("picture"), {
@@ -74,18 +93,33 @@ const connection = new Connection(socketUrl(), () => ({
         timeBar.update(message.settings);
         inspector.update(message.settings);
         options.state(message);
+        wipe.answered();
+        updateAccuracy();
     },
+    frontier: (message) => accuracy.learn(message),
     scene_changed: changeScene,
     inspection: (message) => inspector.show(message),
     error: (message) => {
         errors.push(message);
+        wipe.answered();
         if (!panel.complain(message.field, message.message) && editor.complain(message))
             return;
         notify(at("notices"), message.field ? `${message.field}: ${message.message}` : message.message);
+        updateAccuracy();
     },
     frame: (buffer, arrivedAt) => presenter.accept(buffer, arrivedAt),
     pong: (milliseconds) => statistics.pong(milliseconds),
 });
+
+/** What holds on the server, once it has answered all that was asked of it. */
+function updateAccuracy() {
+    const values = panel.values();
+    wipe.update(values);
+    if (!panel.settled)
+        return;
+    accuracy.update(values);
+    views.update(values);
+}
 
 function socketUrl() {
     const url = new URL("ws", location.href);
@@ -124,6 +158,10 @@ function enter(welcome) {
     editor.welcome(welcome);
     options.state(welcome);
     options.welcome(welcome);
+    accuracy.welcome(welcome);
+    views.describe(welcome.settings);
+    wipe.describe(welcome.settings);
+    updateAccuracy();
     pathBar.describe(welcome.camera_paths);
     describeScene(welcome);
     steering.enter(welcome.scene, welcome.camera, same && steering.moved);
@@ -165,6 +203,8 @@ function showFrame(frame) {
     statistics.frameShown(header, bytes, performance.now());
     overlay.show(frame);
     timeBar.frame(header);
+    accuracy.frame(header);
+    wipe.place();
     at("app").dataset.state = stateOf(header);
 }
 
@@ -211,8 +251,10 @@ for (const [id, key] of Object.entries({ "tool-reset": "R", "tool-overlay": "O",
 at("help").addEventListener("keydown", (event) => event.key.toUpperCase() === "H" && at("help").close());
 
 at("help-figures").append(...FIGURES.flatMap(([, name, meaning]) => [element("dt", {}, name), element("dd", {}, meaning)]));
-if (matchMedia("(max-width: 700px), (max-height: 500px)").matches)
+if (matchMedia("(max-width: 700px), (max-height: 500px)").matches) {
     overlay.level = "brief";
+    at("accuracy").open = false;
+}
 addEventListener("pagehide", () => connection.stop());
 addEventListener("pageshow", (event) => event.persisted && connection.start());
 
@@ -227,6 +269,7 @@ Object.defineProperty(window, "farlight", {
         get passes() { return lastFrame && structuredClone(lastFrame.passes); },
         get latency() { return statistics.latency(); },
         get settings() { return panel.values(); },
+        get frontier() { return structuredClone(accuracy.frontier); },
         get inspection() { return structuredClone(inspector.last); },
         get camera() { return steering.pose && structuredClone(wirePose(steering.pose)); },
         get cameraSequence() { return sequence; },

@@ -5,11 +5,14 @@ import { FakeServer } from "./fake_server.mjs";
 
 export let browser, server, page;
 
+/** Behaviour of the fake server that each test begins with; a file of tests may add to it. */
+export const beginning = {};
+
 before(async () => { browser = await Browser.start(); });
 after(() => browser.stop());
 
 beforeEach(async () => {
-    await serve();
+    await serve(beginning);
     page = await browser.open(server.url);
     await untilFrames(page, 2);
 });

@@ -157,7 +157,7 @@ test("settings are those of the server's list, and changes come back from it", a
     await page.locator("#setting-samples_per_pixel").focus();
     await page.keyboard.press("ArrowRight");
     await until(page, () => window.farlight.settings.samples_per_pixel === 2);
-    await page.locator("summary").first().click();
+    await page.locator("summary", { hasText: "All other settings" }).click();
     await page.locator("#setting-light_sampling").uncheck();
     await until(page, () => window.farlight.settings.light_sampling === false);
     assert.equal(await text("#settings-count"), "3 changed");
@@ -170,7 +170,7 @@ test("settings are those of the server's list, and changes come back from it", a
 });
 
 test("a refused value says why, beside its control, which shows what holds", async () => {
-    await page.locator("summary").first().click();
+    await page.locator("summary", { hasText: "All other settings" }).click();
     const number = page.locator("[data-key=exposure] input[type=number]");
     await number.fill("-3");
     await number.press("Tab");
@@ -284,7 +284,7 @@ test("a payload that is no picture is told and acknowledged, so the stream goes 
 });
 
 test("every control has a name and can be reached by the tab key", async () => {
-    await page.locator("summary").first().click();
+    await page.locator("summary", { hasText: "All other settings" }).click();
     const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, summary")]
         .filter((node) => !(node.labels?.length || node.getAttribute("aria-label") || node.getAttribute("aria-labelledby") || node.textContent.trim()))
         .map((node) => node.outerHTML));
@@ -302,7 +302,7 @@ test("every control has a name and can be reached by the tab key", async () => {
 for (const width of [390, 320])
     test(`nothing sticks out sideways on a page ${width} px wide`, async () => {
         await page.setViewportSize({ width, height: 844 });
-        await page.locator("summary").first().click();
+        await page.locator("summary", { hasText: "All other settings" }).click();
         const sizes = await page.evaluate(() => [".app", ".panel", ".top", "#view"].map((selector) => {
             const node = document.querySelector(selector);
             return [selector, node.scrollWidth, node.clientWidth, node.getBoundingClientRect().right <= innerWidth];

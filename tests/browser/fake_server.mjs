@@ -1,14 +1,16 @@
 // A server of a few dozen lines that speaks farlight.v1 with made-up pictures: for what a real one does only by
 // accident (another version, odd errors, a slow or silent stream), and to see the page without one.
 //
-// The picture is a gradient whose hue follows the camera; `view` sheet shows four quarters. The test reads
-// `received` and steers through `behaviour` and the methods.
+// The picture is a gradient whose hue follows the camera; `view` sheet shows four quarters, `wipe` two halves. The test
+// reads `received` and steers through `behaviour` and the methods. `behaviour.accuracy` is the source of the frontier it
+// sends; without it this is a server that knows nothing of accuracy.
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import { extname } from "node:path";
 import { pathToFileURL } from "node:url";
 import { WebSocketServer } from "ws";
 import { HEADER_FIELDS, FLAGS, FORMATS } from "../../client/web/protocol.js";
+import { ACCURACY_SETTINGS, ACCURACY_VIEWS, accuracyFields, fakeFrontier } from "./fake_accuracy.mjs";
 import { png } from "./png.mjs";
 
 const WEB = new URL("../../client/web/", import.meta.url);
@@ -45,9 +47,10 @@ function hueColour(hue, light) {
     return [0, 1 / 3, 2 / 3].map((shift) => Math.round(255 * light * (0.5 + 0.45 * Math.cos(2 * Math.PI * (hue + shift)))));
 }
 
-const HEADER_SIZE = 120;
+const NEWEST_HEADER = 120;  // bytes
+const OLDER_HEADER = 80;    // of a server that knows nothing of accuracy
 
-function binaryFrame(fields, passes, payload) {
+function binaryFrame(size, fields, passes, payload) {
     const table = Buffer.concat(passes.map(({ name, ms }) => {
         const entry = Buffer.alloc(1 + Buffer.byteLength(name) + 4);
         entry.writeUInt8(Buffer.byteLength(name), 0);
@@ -56,17 +59,17 @@ function binaryFrame(fields, passes, payload) {
         return entry;
     }));
     const padded = Math.ceil(table.length / 8) * 8;
-    const frame = Buffer.alloc(HEADER_SIZE + padded + payload.length);
+    const frame = Buffer.alloc(size + padded + payload.length);
     frame.write("FARL", 0, "latin1");
-    const all = { version: 1, header_size: HEADER_SIZE, pass_count: passes.length, passes_size: padded, payload_size: payload.length, ...fields };
-    for (const [offset, type, name] of HEADER_FIELDS) {
+    const all = { version: 1, header_size: size, pass_count: passes.length, passes_size: padded, payload_size: payload.length, ...fields };
+    for (const [offset, type, name] of HEADER_FIELDS.filter(([at]) => at < size)) {
         if (type === "f32")
             frame.writeFloatLE(all[name] ?? NaN, offset);
         else if (type !== "u64")
             frame.writeUIntLE(all[name] ?? 0, offset, SIZES[type]);
     }
-    table.copy(frame, HEADER_SIZE);
-    payload.copy(frame, HEADER_SIZE + padded);
+    table.copy(frame, size);
+    payload.copy(frame, size + padded);
     return frame;
 }
 
@@ -81,6 +84,10 @@ class Session {
 
     constructor(socket, server) {
         Object.assign(this, { socket, server });
+        if (server.behaviour.accuracy) {
+            this.settings.find(({ key }) => key === "view").choices.push(...ACCURACY_VIEWS);
+            this.settings.push(...ACCURACY_SETTINGS());
+        }
         socket.on("message", (text) => this.receive(JSON.parse(text)));
         this.timer = setInterval(() => this.draw(), server.behaviour.frameMs);
         socket.on("close", () => clearInterval(this.timer));
@@ -105,8 +112,8 @@ class Session {
             this.say({ type: "pong", t: message.t });
         else if (change && change.call(this, message) !== false) {
             this.samples = 0;
-            if (message.type !== "camera")
-                this.say({ type: "state", settings: Object.fromEntries(this.settings.map(({ key, value }) => [key, value])), size: this.size, format: this.format });
+            if (message.type !== "camera" && !this.server.behaviour.mute)
+                this.say({ type: "state", settings: this.values(), size: this.size, format: this.format });
         }
     }
 
@@ -123,8 +130,12 @@ class Session {
             effects: ["quads: 17 objects, first 'floor'"], settings: this.settings,
             limits: { max_dimension: 4096, max_in_flight: 8, max_message_bytes: 16384 },
         });
+        if (this.server.behaviour.accuracy)
+            this.say(fakeFrontier(this.server.behaviour.accuracy));
         this.ready = true;
     }
+
+    values() { return Object.fromEntries(this.settings.map(({ key, value }) => [key, value])); }
 
     scene() {
         const { moves } = this.server.behaviour;
@@ -179,13 +190,13 @@ class Session {
         return true;
     }
 
-    colour() {
-        const [width, height] = this.size;
+    colour([width, height] = this.size) {
         const [x0, y0, z0] = this.camera.position;
         const hue = Math.atan2(x0, z0) / Math.PI + Math.hypot(x0, y0, z0) / 20;
         const sheet = this.value("view") === "sheet";
         const light = Math.min(1, 0.8 * this.value("exposure"));
-        return (x, y) => hueColour(sheet ? (x * 2 >= width) / 4 + (y * 2 >= height) / 2 : hue + x / width / 3, light * (0.4 + 0.6 * y / height));
+        const wipe = this.value("view") === "wipe" ? this.value("wipe_position") : 0;
+        return (x, y) => hueColour(x < wipe * width ? 0.5 + y / height / 3 : sheet ? (x * 2 >= width) / 4 + (y * 2 >= height) / 2 : hue + x / width / 3, light * (0.4 + 0.6 * y / height));
     }
 
     draw() {
@@ -199,16 +210,21 @@ class Session {
         const last = !plays && this.samples >= this.value("still_samples");
         const still = this.samples > 4;
         const jpeg = behaviour.jpeg && this.format.startsWith("jpeg") && !last;
-        const payload = behaviour.garbage ? Buffer.from("no picture") : jpeg ? behaviour.jpeg : png(...this.size, this.colour());
+        const [width, height] = this.size;
+        const fields = {
+            width, height, trace_us: 36000, denoise_us: 14200,
+            ...(behaviour.accuracy && accuracyFields(this.values(), this.size, { still, accumulated: this.samples, frame: this.frame })),
+        };
+        const inside = [fields.width, fields.height];
+        const payload = behaviour.garbage ? Buffer.from("no picture") : jpeg ? behaviour.jpeg : png(...inside, this.colour(inside));
         const flags = (still ? FLAGS.still : 0) | (last ? FLAGS.lossless | FLAGS.converged : 0);
         this.finished = last ? this.sequence : -1;
-        const [width, height] = this.size;
         const ms = [["gbuffer", 4.2], ["path_trace", 31.75], ["svgf reproject", 3.1], ["svgf a-trous 0", 5.5], ["svgf a-trous 1", 5.6], ["tonemap", 0.9]];
-        this.socket.send(binaryFrame({
+        this.socket.send(binaryFrame(behaviour.accuracy ? NEWEST_HEADER : OLDER_HEADER, {
             format: FORMATS.indexOf(jpeg ? this.format : "png"), flags, frame_id: ++this.frame, camera_sequence: this.sequence,
-            session_epoch: this.epoch, width, height, full_width: width, full_height: height, accumulated_samples: this.samples,
-            wait_us: 900, trace_us: 36000, denoise_us: 14200, encode_us: 2100, nonfinite_count: behaviour.nonfinite,
-            scene_time: this.time,
+            session_epoch: this.epoch, full_width: width, full_height: height, accumulated_samples: this.samples,
+            wait_us: 900, encode_us: 2100, nonfinite_count: behaviour.nonfinite,
+            scene_time: this.time, ...fields,
         }, ms.map(([name, time]) => ({ name, ms: time })), payload));
     }
 }
@@ -216,7 +232,7 @@ class Session {
 export class FakeServer {
     received = [];
     sessions = new Set();
-    behaviour = { protocol: "farlight.v1", subprotocols: ["farlight.v1"], frameMs: 20, jpeg: null, nonfinite: 0, silent: false, garbage: false, moves: null, general: false, edits: true };
+    behaviour = { protocol: "farlight.v1", subprotocols: ["farlight.v1"], frameMs: 20, jpeg: null, nonfinite: 0, silent: false, garbage: false, moves: null, general: false, edits: true, accuracy: null, mute: false };
 
     constructor(behaviour = {}) {
         Object.assign(this.behaviour, behaviour);
@@ -274,6 +290,6 @@ export class FakeServer {
 }
 
 if (import.meta.url === pathToFileURL(process.argv[1]).href) {
-    const server = await new FakeServer().start(Number(process.argv[2] ?? 8081));
+    const server = await new FakeServer({ accuracy: process.argv[3] ?? "report" }).start(Number(process.argv[2] ?? 8081));
     console.log(`fake server: listening on ${server.url}`);
 }

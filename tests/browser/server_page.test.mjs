@@ -103,7 +103,7 @@ test("the sheet of debug views and a buffer of its own", async () => {
 });
 
 test("a slider changes a setting on the server", async () => {
-    await page.locator("summary").first().click();
+    await page.locator("summary", { hasText: "All other settings" }).click();
     const slider = page.locator("#setting-exposure");
     await slider.focus();
     const before = await meanColour(page);
@@ -116,7 +116,7 @@ test("a slider changes a setting on the server", async () => {
     await screenshot(page, "server_settings");
     await page.locator("[data-key=exposure] .reset").click();
     await until(page, () => window.farlight.settings.exposure === 1);
-    await page.locator("summary").first().click();
+    await page.locator("summary", { hasText: "All other settings" }).click();
 });
 
 test("an edit adds fog: the page tells it among the effects, a wrong edit shows where, the file comes back", async () => {
@@ -162,11 +162,11 @@ test("a scene that moves has a time line, which goes where it is put", async () 
 });
 
 test("at rest the picture is refined and ends lossless", async () => {
-    await page.locator("summary").first().click();
+    await page.locator("summary", { hasText: "All other settings" }).click();
     const number = page.locator("[data-key=still_samples] input[type=number]");
     await number.fill("8");
     await number.press("Tab");
-    await page.locator("summary").first().click();
+    await page.locator("summary", { hasText: "All other settings" }).click();
     await until(page, () => window.farlight.lastHeader.flags.converged);
     const last = await header();
     assert.deepEqual(last.flags, { ...last.flags, still: true, lossless: true, converged: true });

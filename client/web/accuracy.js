@@ -1,0 +1,169 @@
+// The accuracy section: what this frame's error is and costs, among what the scene's frames may cost and bring.
+//
+// Header and frontier come from the server; the goal (goal.js) and the plot (frontier_plot.js) are parts of it.
+import { element, fixed } from "./dom.js";
+import { ORIGINS, errorNumber, errorOf, frontierOf, interval, milliseconds } from "./frontier.js";
+import { FrontierPlot } from "./frontier_plot.js";
+import { Goal } from "./goal.js";
+
+const REFRESH_MS = 250;     // more often, numbers cannot be read
+const STEP_MS = 100;        // the live point's
+const TRAIL = 40;           // points behind it
+const ESTIMATES = 120;      // bytes of a frame header that tells errors with their intervals
+
+/** [key, name, what it is]: the rows of numbers. */
+const ROWS = [
+    ["predicted", "Predicted error", "of the moving picture, from its two halves: noise, without what the filter blurs"],
+    ["measured", "Measured error", "of the resting picture, against samples that are not in it: noise and blur"],
+    ["raw", "Raw error", "of this frame's own samples without any filter"],
+    ["effective", "Effective samples", "samples a pixel that a plain mean would need for the picture's error"],
+    ["samples", "Samples a pixel", "of this frame, and in all since camera or settings last changed"],
+    ["inside", "Internal size", "the picture as it is traced, and the size it is shown at"],
+    ["drawing", "Drawing", "tracing and denoising on the server"],
+    ["encoding", "Encoding", "from pixels to bytes"],
+    ["network", "Network", "a ping there and back, median"],
+    ["faulty", "Non-finite", "NaN and infinite values met while drawing: must be 0"],
+];
+
+/** {key: [number, what belongs to it]} for ROWS. */
+function cellsOf(header, roundTrip) {
+    const { width, height, full_width, full_height } = header;
+    const whole = width === full_width && height === full_height;
+    const intervalOf = (kind, before, after) => interval({ lower: header[`${kind}_lower`], upper: header[`${kind}_upper`] }, before, after);
+    return {
+        predicted: [errorNumber(header.predicted_error), intervalOf("predicted") || "while moving"],
+        measured: [errorNumber(header.measured_error), header.reference_samples ? `${intervalOf("measured", "", ", ")}against ${header.reference_samples} samples` : "while still"],
+        raw: [errorNumber(header.raw_error), ""],
+        effective: [Number.isFinite(header.effective_samples) ? errorNumber(header.effective_samples, 3) : "–", ""],
+        samples: [header.samples_per_pixel || "–", `a frame, ${header.accumulated_samples} in all`],
+        inside: [`${width} × ${height}`, whole ? "full size" : `of ${full_width} × ${full_height}`],
+        drawing: [`${fixed((header.trace_us + header.denoise_us) / 1000)} ms`, ""],
+        encoding: [`${fixed(header.encode_us / 1000)} ms`, ""],
+        network: [`${fixed(roundTrip)} ms`, ""],
+        faulty: [String(header.nonfinite_count), header.nonfinite_count ? "values: the picture is faulty" : ""],
+    };
+}
+
+export class Accuracy {
+    #nodes; #roundTrip;
+    #cells = {};
+    #plot; #goal;
+    #frontier = null; #header = null;
+    #trail = [];
+    #expects = false;  // the server knows budgets, so a frontier will come
+    #drawnAt = -Infinity; #steppedAt = -Infinity; #timer;
+
+    /** `nodes` are {box, word, absent, figure, plot, caption, rows, goal: {...}}; `ask(key, value)` asks for a setting; `roundTrip()` in ms. */
+    constructor(nodes, ask, roundTrip) {
+        this.#nodes = nodes;
+        this.#roundTrip = roundTrip;
+        this.#goal = new Goal(nodes.goal, ask, () => this.#refresh());
+        this.#plot = new FrontierPlot(nodes.plot, (point) => this.#caption(point));
+        nodes.rows.append(...ROWS.map(([key, name, meaning]) => {
+            const cells = this.#cells[key] = [element("td"), element("td")];
+            return element("tr", { "data-row": key, title: meaning }, element("th", { scope: "row" }, name), ...cells);
+        }));
+        nodes.box.addEventListener("toggle", () => this.#refresh());
+    }
+
+    get frontier() {
+        return this.#frontier;
+    }
+
+    /** A session begins: with another scene, nothing is known any more. */
+    welcome({ settings }) {
+        this.#frontier = null;
+        this.#header = null;
+        this.#trail = [];
+        this.#goal.describe(settings);
+        this.#goal.learn({ source: "learnt", points: [] });
+        const missing = missingFrom(settings);
+        this.#nodes.absent.hidden = missing.length === 0;
+        this.#nodes.absent.textContent = `This server knows no ${missing.join(", no ")}.`;
+        this.#expects = settings.some(({ key }) => key === "budget_ms" || key === "target_error");
+        this.#refresh();
+    }
+
+    update(values) {
+        this.#goal.update(values);
+        this.#refresh();
+    }
+
+    learn(message) {
+        this.#frontier = frontierOf(message);
+        this.#goal.learn(this.#frontier);
+        this.#refresh();
+    }
+
+    frame(header) {
+        this.#header = header;
+        const error = errorOf(header);
+        const ms = (header.trace_us + header.denoise_us) / 1000;
+        this.#goal.frame({
+            ms, raw: header.raw_error, error: error?.value ?? NaN, samples: header.samples_per_pixel || 1,
+            accumulated: header.accumulated_samples, still: header.flags.still,
+        });
+        const now = performance.now();
+        if (error?.value > 0 && ms > 0 && now - this.#steppedAt >= STEP_MS) {
+            this.#steppedAt = now;
+            this.#trail.push({ ms, error: error.value, measured: error.measured });
+            this.#trail.splice(0, this.#trail.length - TRAIL - 1);
+            this.#drawPlot();
+        }
+        clearTimeout(this.#timer);
+        this.#timer = setTimeout(() => this.#refresh(), Math.max(0, this.#drawnAt + REFRESH_MS - now));
+    }
+
+    #refresh() {
+        this.#drawnAt = performance.now();
+        const error = this.#header && errorOf(this.#header);
+        const faulty = this.#header?.nonfinite_count > 0;
+        this.#nodes.word.textContent = faulty ? `${this.#header.nonfinite_count} non-finite values`
+            : error ? `${errorNumber(error.value)} ${error.measured ? "measured" : "predicted"}` : "";
+        this.#nodes.word.classList.toggle("bad", faulty);
+        if (!this.#nodes.box.open)
+            return;
+        this.#goal.show();
+        this.#drawPlot();
+        this.#caption(null);
+        this.#nodes.figure.hidden = !this.#expects && !this.#frontier && this.#trail.length === 0;
+        if (this.#header)
+            this.#drawRows();
+    }
+
+    #drawRows() {
+        for (const [key, texts] of Object.entries(cellsOf(this.#header, this.#roundTrip())))
+            this.#cells[key].forEach((cell, i) => { cell.textContent = texts[i]; });
+        const estimates = this.#header.header_size >= ESTIMATES;
+        for (const key of ["predicted", "measured", "raw", "effective"])
+            this.#cells[key][0].parentElement.hidden = !estimates && this.#cells[key][0].textContent === "–";
+        this.#cells.faulty[0].parentElement.classList.toggle("bad", this.#header.nonfinite_count !== 0);
+    }
+
+    #drawPlot() {
+        if (!this.#nodes.box.open)
+            return;
+        const points = this.#frontier?.points ?? [];
+        const live = this.#trail.at(-1) ?? null;
+        const words = [...points.map(({ label, ms, error }) => `${label}: ${milliseconds(ms)}, error ${errorNumber(error)}`),
+            ...(live ? [`now: ${milliseconds(live.ms)}, error ${errorNumber(live.error)}`] : [])];
+        this.#plot.show({ points, live, trail: this.#trail.slice(0, -1), target: this.#goal.target }, `Error against time. ${words.join("; ")}`);
+    }
+
+    /** Below the plot: what is pointed at, or which point draws now, and where the frontier is from. */
+    #caption(pointed) {
+        const { source, reason, points } = this.#frontier ?? { points: [] };
+        const point = pointed ?? points.find(({ rung }) => rung === this.#header?.rung);
+        const origin = source ? `Frontier ${ORIGINS[source]}${reason ? `: ${reason}` : ""}.` : "The frontier is not known yet.";
+        const error = point?.error > 0 ? `error ${errorNumber(point.error)}${interval(point, ", ")}` : "error not known yet";
+        this.#nodes.caption.replaceChildren(element("span", {}, origin),
+            ...(point ? [" ", element("b", {}, `${pointed ? "" : "Now drawing: "}${point.label}`), ` (${milliseconds(point.ms)}, ${error})`] : []));
+    }
+}
+
+/** What of this section the server's settings lack, in words. */
+function missingFrom(settings) {
+    const keys = new Set(settings.map(({ key }) => key));
+    return Object.entries({ budget_ms: "time budget", target_error: "accuracy budget", error_estimate: "error estimate" })
+        .filter(([key]) => !keys.has(key)).map(([, words]) => words);
+}

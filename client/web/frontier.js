@@ -1,0 +1,110 @@
+// What this scene's frames may cost and bring (message `frontier`), and what a wish for time or accuracy would take. Pure.
+//
+// Errors are relMSE, times are milliseconds of tracing and denoising. What is not known is NaN.
+
+export const ORIGINS = { report: "from a report", learnt: "learnt while running" };
+
+/** The message with unknown errors as NaN. `rung` is what frames call a point; one that has no time has no place here. */
+export function frontierOf({ source, points, reason = "" }) {
+    const known = points.map(({ label, ms, error = NaN, lower = error, upper = error }, i) => ({ rung: i + 1, label, ms, error, lower, upper }));
+    return { source, reason, points: known.filter(({ ms }) => ms > 0) };
+}
+
+const leastBy = (points, key) => points.reduce((least, point) => (least && !(point[key] < least[key]) ? least : point), null);
+
+export const cheapest = (points) => leastBy(points, "ms");
+
+/** The point of the least error; null while none is known. */
+export const finest = (points) => leastBy(points.filter(({ error }) => error > 0), "error");
+
+/** The least error for at most `ms`; where errors are not known yet, the dearest that fits. Null: none fits. */
+export function bestWithin(points, ms) {
+    const fitting = points.filter((point) => point.ms <= ms);
+    return finest(fitting) ?? fitting.reduce((most, point) => (most && most.ms >= point.ms ? most : point), null);
+}
+
+/** The least time for at most `error`; null: none reaches it. */
+export const cheapestReaching = (points, error) => cheapest(points.filter((point) => point.error <= error));
+
+/**
+ * How long a camera must rest until a plain mean of frames has the error `target` [s], and how many samples a pixel that is.
+ * A mean of n frames has raw / n, `raw` being the error of one frame's own samples; a frame takes `ms`.
+ */
+export function rest(target, { raw, ms, samples }) {
+    const frames = Math.max(1, raw / target);
+    return { seconds: frames * ms / 1000, samples: Math.ceil(frames) * samples };
+}
+
+/** 0.0023, 1.5, 120; below a thousandth 2.3e-4: errors span many decades. */
+export function errorNumber(error, digits = 2) {
+    if (!Number.isFinite(error))
+        return "–";
+    if (error !== 0 && Math.abs(error) < 1e-3)
+        return error.toExponential(digits - 1).replace(/\.0+e/, "e");
+    return Math.abs(error) >= 100 ? String(Math.round(error)) : String(Number(error.toPrecision(digits)));
+}
+
+/** "0.001 to 0.002" between `before` and `after`; nothing where it is not known. */
+export function interval({ lower, upper }, before = "", after = "") {
+    return Number.isFinite(lower) && Number.isFinite(upper) ? `${before}${errorNumber(lower)} to ${errorNumber(upper)}${after}` : "";
+}
+
+/** The error to tell of a frame, measured where there is one: {value, lower, upper, measured}, or null. */
+export function errorOf(header) {
+    for (const kind of ["measured", "predicted"])
+        if (Number.isFinite(header[`${kind}_error`]))
+            return { value: header[`${kind}_error`], lower: header[`${kind}_lower`], upper: header[`${kind}_upper`], measured: kind === "measured" };
+    return null;
+}
+
+export function milliseconds(ms) {
+    return ms >= 100 ? `${Math.round(ms)} ms` : `${Number(ms.toPrecision(3))} ms`;
+}
+
+/** 0.8 s, 45 s, 12 min, 3 h. */
+export function duration(seconds) {
+    if (seconds < 10)
+        return `${seconds < 0.1 ? "0.1" : seconds.toFixed(1)} s`;
+    if (seconds < 120)
+        return `${Math.round(seconds)} s`;
+    return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
+}
+
+const LEARNING = "What frames take and bring here is being learnt.";
+
+/** What a budget of `ms` a frame gets: {reached, words}. */
+export function reachOfTime({ source, points }, ms) {
+    const least = cheapest(points);
+    if (!least)
+        return { reached: true, words: LEARNING };
+    const point = bestWithin(points, ms);
+    if (!point)
+        return { reached: false, words: `Not reachable on this device: the cheapest frame takes ${milliseconds(least.ms)} (${ORIGINS[source]}).` };
+    const error = point.error > 0 ? `, error ${errorNumber(point.error)}` : ", its error not known yet";
+    return { reached: true, words: `“${point.label}” fits: ${milliseconds(point.ms)}${error} (${ORIGINS[source]}).` };
+}
+
+/** What a wish for the error `target` takes: {reached, words}. `frame` as for rest(), and `most`: samples after which refining ends. */
+export function reachOfError({ source, points }, target, frame) {
+    const point = cheapestReaching(points, target);
+    if (point)
+        return { reached: true, words: `“${point.label}” reaches it while moving: ${milliseconds(point.ms)} a frame (${ORIGINS[source]}).` };
+    const best = finest(points);
+    const moving = best ? `Not while moving: the finest known frame has ${errorNumber(best.error)} (${ORIGINS[source]}).` : LEARNING;
+    const { seconds, samples } = rest(target, frame);
+    if (!Number.isFinite(seconds))
+        return { reached: !best, words: `${moving} How long a resting camera takes is not known yet.` };
+    const patience = samples <= frame.most ? ""
+        : ` That is ${samples.toLocaleString("en")} samples a pixel, but refining ends at ${frame.most.toLocaleString("en")}: choose “unlimited”.`;
+    return { reached: !best, words: `${moving} Reachable after ${duration(seconds)} still.${patience}` };
+}
+
+/** What never stopping brings. `frame` as for rest(), with its `error`, `accumulated` samples a pixel and whether it is `still`. */
+export function reachOfPatience(frame, most) {
+    const limit = `Keeps accumulating while the camera rests, up to ${most.toLocaleString("en")} samples a pixel.`;
+    const half = rest(frame.error / 2, frame);
+    const seconds = half.seconds - frame.accumulated / frame.samples * frame.ms / 1000;
+    if (!frame.still || !(seconds > 0) || half.samples > most)
+        return limit;
+    return `${limit} Half of this error takes ${duration(seconds)} more.`;
+}
