@@ -37,7 +37,7 @@ function cellsOf(header, roundTrip) {
         effective: [Number.isFinite(header.effective_samples) ? errorNumber(header.effective_samples, 3) : "–", ""],
         samples: [header.samples_per_pixel || "–", `a frame, ${header.accumulated_samples} in all`],
         inside: [`${width} × ${height}`, whole ? "full size" : `of ${full_width} × ${full_height}`],
-        drawing: [`${fixed((header.trace_us + header.denoise_us) / 1000)} ms`, ""],
+        drawing: [`${fixed((header.trace_us + header.denoise_us) / 1000)} ms`, header.frame_us ? `of ${fixed(header.frame_us / 1000)} in all` : ""],
         encoding: [`${fixed(header.encode_us / 1000)} ms`, ""],
         network: [`${fixed(roundTrip)} ms`, ""],
         faulty: [String(header.nonfinite_count), header.nonfinite_count ? "values: the picture is faulty" : ""],

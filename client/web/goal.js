@@ -31,6 +31,7 @@ export class Goal {
     #described = new Map(); #values = {};
     #frontier = { source: "learnt", points: [] };
     #frame = { ms: NaN, raw: NaN, error: NaN, samples: 1, accumulated: 0, still: false };
+    #rested = {};     // ms, raw and samples of the last frame at rest: moving ones may be smaller
     #kind = "as_set"; #kinds = [];
     #stops = [];
     #radios = new Map();
@@ -67,6 +68,7 @@ export class Goal {
         }));
         this.#nodes.kinds.replaceChildren(...[...this.#radios].map(([kind, input]) => element("label", {}, input, element("span", {}, KINDS[kind].name))));
         this.#stops = [];
+        this.#rested = {};
     }
 
     /** What holds on the server. */
@@ -87,6 +89,8 @@ export class Goal {
     frame(frame) {
         const known = Object.entries(frame).filter(([, value]) => !Number.isNaN(value));
         this.#frame = { ...this.#frame, ...Object.fromEntries(known), most: this.#values.still_samples ?? Infinity };
+        if (frame.still)
+            this.#rested = { ms: this.#frame.ms, raw: this.#frame.raw, samples: this.#frame.samples };
     }
 
     #choose(kind) {
@@ -148,7 +152,7 @@ export class Goal {
             this.#showSlider();
         } else
             word.textContent = this.#kind === "unlimited" ? reachOfPatience(this.#frame, this.#values.still_samples)
-                : "Settings hold as they are; nothing is chosen for you.";
+                : "Settings hold as they are below.";
     }
 
     /** The scale changes when it must show more, never while it is in somebody's hand. */
@@ -169,7 +173,7 @@ export class Goal {
         unit.textContent = kind.unit;
         range.max = last;
         range.value = nearestStop(this.#stops, value);
-        const reach = this.#kind === "time" ? reachOfTime(this.#frontier, value) : reachOfError(this.#frontier, value, this.#frame);
+        const reach = this.#kind === "time" ? reachOfTime(this.#frontier, value) : reachOfError(this.#frontier, value, { ...this.#frame, ...this.#rested });
         const shown = this.#kind === "time" ? shortNumber : errorNumber;
         range.setAttribute("aria-valuetext", `${shown(value)} ${kind.unit}. ${reach.words}`);
         range.style.setProperty("--at", range.value / last);

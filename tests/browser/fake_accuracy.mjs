@@ -47,6 +47,7 @@ function rungFor({ budget_ms, target_error }) {
 export function accuracyFields(values, [width, height], { still, accumulated, frame }) {
     const rung = rungFor(values);
     const [scale, samples] = rung ? RUNGS[rung - 1] : [values.resolution_scale, values.samples_per_pixel];
+    const ms = msOf([scale, samples]);
     const wobble = 1 + 0.06 * Math.sin(frame);
     const noise = errorOf([scale, samples]) * wobble;
     const raw = RAW * noise;
@@ -56,6 +57,6 @@ export function accuracyFields(values, [width, height], { still, accumulated, fr
         width: Math.round(width * scale), height: Math.round(height * scale), rung, samples_per_pixel: samples, raw_error: raw,
         [`${kind}_error`]: error, [`${kind}_lower`]: 0.8 * error, [`${kind}_upper`]: 1.25 * error,
         reference_samples: still ? 2 * accumulated : 0, effective_samples: samples * raw / error,
-        trace_us: Math.round(1000 * 0.6 * msOf([scale, samples]) * wobble), denoise_us: Math.round(1000 * 0.4 * msOf([scale, samples]) * wobble),
+        trace_us: Math.round(600 * ms * wobble), denoise_us: Math.round(400 * ms * wobble), frame_us: Math.round(1020 * ms * wobble),
     };
 }
