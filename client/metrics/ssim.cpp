@@ -39,6 +39,7 @@ double similarity(const Moments& m, std::size_t i)
 double structural_similarity(
     std::span<const float> test, std::span<const float> reference, ImageSize size, Mask mask)
 {
+    expect_comparable(test, reference);
     expect_comparable(test, reference, mask);
     if (test.size() != 3 * size.pixels())
         throw MetricError("the picture has " + std::to_string(test.size()) + " values, expected "
