@@ -53,7 +53,7 @@ export class Accuracy {
     #expects = false;  // the server knows budgets, so a frontier will come
     #drawnAt = -Infinity; #steppedAt = -Infinity; #timer;
 
-    /** `nodes` are {box, word, absent, figure, plot, caption, rows, goal: {...}}; `ask(key, value)` asks for a setting; `roundTrip()` in ms. */
+    /** `nodes` are {box, word, absent, figure, plot, caption, rows, formula, goal: {...}}; `ask(key, value)` asks for a setting; `roundTrip()` in ms. */
     constructor(nodes, ask, roundTrip) {
         this.#nodes = nodes;
         this.#roundTrip = roundTrip;
@@ -137,6 +137,7 @@ export class Accuracy {
         const estimates = this.#header.header_size >= ESTIMATES;
         for (const key of ["predicted", "measured", "raw", "effective"])
             this.#cells[key][0].parentElement.hidden = !estimates && this.#cells[key][0].textContent === "–";
+        this.#nodes.formula.hidden = !estimates;
         this.#cells.faulty[0].parentElement.classList.toggle("bad", this.#header.nonfinite_count !== 0);
     }
 

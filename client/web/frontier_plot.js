@@ -103,7 +103,7 @@ export class FrontierPlot {
         this.#drawWhiskers(context, at, ratio, bbox.top + bbox.height);
         this.#drawTarget(context, plot, ratio);
         this.#trail.forEach((point, i) => {
-            context.globalAlpha = 0.1 + 0.5 * i / this.#trail.length;
+            context.globalAlpha = 0.25 + 0.4 * i / this.#trail.length;
             mark(context, at(point), 2 * ratio, point.measured);
         });
         context.globalAlpha = 1;

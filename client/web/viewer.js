@@ -55,7 +55,7 @@ const ask = (key, value) => panel.ask(key, value);
 
 const accuracy = new Accuracy({
     box: at("accuracy"), word: at("accuracy-word"), absent: at("accuracy-absent"), figure: at("frontier"),
-    plot: at("frontier-plot"), caption: at("frontier-word"), rows: at("accuracy-rows"),
+    plot: at("frontier-plot"), caption: at("frontier-word"), rows: at("accuracy-rows"), formula: at("accuracy-formula"),
     goal: {
         box: at("goal"), kinds: at("goal-kinds"), slider: at("goal-slider"), label: at("goal-label"), unit: at("goal-unit"),
         range: at("goal-range"), number: at("goal-number"), ticks: at("goal-ticks"), ends: at("goal-ends"), word: at("goal-word"),

@@ -193,7 +193,8 @@ test("a server that knows nothing of accuracy: what is not there is hidden, and 
     await says("#accuracy-rows [data-row=drawing]", /50\.2 ms/);
     for (const key of ["predicted", "measured", "raw", "effective"])
         assert.equal(await cell(key).isVisible(), false, key);
-    assert.equal(await page.locator("#frontier").isVisible(), false);
+    for (const part of ["#frontier", "#accuracy-formula"])
+        assert.equal(await page.locator(part).isVisible(), false, part);
     const kinds = await page.locator("#goal-kinds input").evaluateAll((inputs) => inputs.map(({ value }) => value));
     assert.deepEqual(kinds, ["as_set", "unlimited"]);
     assert.deepEqual(await page.locator("#views input").evaluateAll((inputs) => inputs.map(({ value }) => value)), ["final", "history_length", "variance"]);
