@@ -81,7 +81,7 @@ void expect_sizes_and_kinds(const FilePair& files, const Appearance& a, const Ap
 }
 
 Picture heat_map_of(const Options& options, const Appearance& test, const Appearance& reference,
-    const Comparison& comparison)
+    const PictureComparison& comparison)
 {
     if (options.heat == "absolute")
         return absolute_heat_map(test.linear, reference.linear, test.size);

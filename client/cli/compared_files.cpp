@@ -134,6 +134,7 @@ std::vector<FilePair> paired(const Path& test, const Path& reference)
     if (const std::string lacks = missing_in(others, names); !lacks.empty())
         throw InputError(test.string() + ": lacks " + lacks);
     std::vector<FilePair> pairs;
+    pairs.reserve(names.size());
     for (const std::string& name : names)
         pairs.push_back({test / name, reference / name});
     return pairs;

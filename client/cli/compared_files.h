@@ -29,7 +29,7 @@ struct ComparedFile {
     FilePair files;
     ImageSize size;
     bool is_light = false;
-    Comparison comparison;
+    PictureComparison comparison;
 };
 
 /// Of all frames of the test, in the order of their names.

@@ -4,19 +4,29 @@
 #include "client/metrics/ssim.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace farlight::client {
 namespace {
 
 using ValueMetric = double (*)(std::span<const float>, std::span<const float>, Mask);
 
-/// Of linear values.
-constexpr std::pair<std::string_view, ValueMetric> kOfLight[] = {{"relmse", relative_mse},
-    {"relmse999", relative_mse_999}, {"mse", mean_square_error}, {"rmse", root_mean_square_error},
-    {"smape", smape}, {"fireflies", count_fireflies}};
+/// Each is of linear values, or else of display values.
+struct PointwiseMetric {
+    std::string_view name;
+    ValueMetric of;
+    bool of_light;
+};
+constexpr PointwiseMetric kPointwise[] = {{"relmse", relative_mse, true},
+    {"relmse999", relative_mse_999, true}, {"mse", mean_square_error, true},
+    {"rmse", root_mean_square_error, true}, {"psnr", peak_signal_to_noise, false},
+    {"smape", smape, true}, {"fireflies", count_fireflies, true}};
 
-constexpr std::string_view kOthers[] = {"psnr", "ssim", "flip", "hdr_flip"};
+const PointwiseMetric* find_pointwise(std::string_view name)
+{
+    const auto* const found = std::find_if(std::begin(kPointwise), std::end(kPointwise),
+        [&](const PointwiseMetric& metric) { return metric.name == name; });
+    return found == std::end(kPointwise) ? nullptr : found;
+}
 
 void expect_alike(const Appearance& test, const Appearance& reference)
 {
@@ -42,12 +52,33 @@ Appearance appearance_of(const Picture& picture, const DisplayOptions& options)
     return {size, picture.linear, display_of_linear(picture.linear, options), true};
 }
 
-Comparison compare(
+double metric_value(std::string_view name, const Appearance& test, const Appearance& reference,
+    const CompareOptions& options, Mask mask)
+{
+    expect_alike(test, reference);
+    expect_comparable(test.linear, reference.linear, mask);  // on a display a NaN is black
+    if (const PointwiseMetric* metric = find_pointwise(name))
+        return metric->of_light ? metric->of(test.linear, reference.linear, mask)
+                                : metric->of(test.display, reference.display, mask);
+    expect_comparable(test.linear, reference.linear);
+    const double pixels_per_degree = options.pixels_per_degree;
+    if (name == "ssim")
+        return structural_similarity(test.display, reference.display, test.size, mask);
+    if (name == "flip")
+        return pool(ldr_flip(test.display, reference.display, test.size, pixels_per_degree), mask)
+            .mean;
+    if (name == "hdr_flip")
+        return pool(hdr_flip(test.linear, reference.linear, test.size, pixels_per_degree), mask)
+            .mean;
+    throw MetricError("'" + std::string(name) + "' is no metric of two pictures");
+}
+
+PictureComparison compare(
     const Appearance& test, const Appearance& reference, const CompareOptions& options, Mask mask)
 {
     expect_alike(test, reference);
-    expect_comparable(test.linear, reference.linear, mask);
-    Comparison result;
+    expect_comparable(test.linear, reference.linear);
+    PictureComparison result;
     const double pixels_per_degree = options.pixels_per_degree;
     result.flip_map = ldr_flip(test.display, reference.display, test.size, pixels_per_degree);
     result.flip = pool(result.flip_map, mask);
@@ -55,30 +86,15 @@ Comparison compare(
         result.hdr_flip =
             pool(hdr_flip(test.linear, reference.linear, test.size, pixels_per_degree), mask);
     for (const Metric& metric : kMetrics) {
-        const auto* const of_light = std::find_if(std::begin(kOfLight), std::end(kOfLight),
-            [&](const auto& row) { return row.first == metric.name; });
-        if (of_light != std::end(kOfLight))
-            result.values.push_back(
-                {metric.name, of_light->second(test.linear, reference.linear, mask)});
-        else if (metric.name == "psnr")
-            result.values.push_back(
-                {metric.name, peak_signal_to_noise(test.display, reference.display, mask)});
-        else if (metric.name == "ssim")
-            result.values.push_back({metric.name,
-                structural_similarity(test.display, reference.display, test.size, mask)});
-        else if (metric.name == "flip")
+        if (metric.name == "flip")
             result.values.push_back({metric.name, result.flip.mean});
         else if (metric.name == "hdr_flip" && result.hdr_flip)
             result.values.push_back({metric.name, result.hdr_flip->mean});
+        else if (metric.name == "ssim" || find_pointwise(metric.name) != nullptr)
+            result.values.push_back(
+                {metric.name, metric_value(metric.name, test, reference, options, mask)});
     }
     return result;
-}
-
-bool is_of_two_pictures(std::string_view name)
-{
-    return std::find(std::begin(kOthers), std::end(kOthers), name) != std::end(kOthers)
-        || std::any_of(std::begin(kOfLight), std::end(kOfLight),
-            [&](const auto& row) { return row.first == name; });
 }
 
 }  // namespace farlight::client

@@ -32,7 +32,7 @@ struct MetricValue {
     double value = 0;
 };
 
-struct Comparison {
+struct PictureComparison {
     std::vector<MetricValue> values;  ///< In the order of the table; hdr_flip of light only.
     std::vector<float> flip_map;  ///< LDR-FLIP of each pixel.
     Pooled flip;
@@ -41,10 +41,11 @@ struct Comparison {
 
 /// Throws MetricError where sizes or kinds differ, and before anything is averaged when a value is
 /// not finite; FLIP and SSIM look at a pixel's neighbours, so here those that do not count too.
-Comparison compare(const Appearance& test, const Appearance& reference,
+PictureComparison compare(const Appearance& test, const Appearance& reference,
     const CompareOptions& options = {}, Mask mask = {});
 
-/// Names of the metrics that compare() may give.
-bool is_of_two_pictures(std::string_view name);
+/// One of them alone. Throws likewise.
+double metric_value(std::string_view name, const Appearance& test, const Appearance& reference,
+    const CompareOptions& options = {}, Mask mask = {});
 
 }  // namespace farlight::client

@@ -2,8 +2,8 @@
 // different ones it is bias alone, because their noise is independent. The difference is variance.
 #include "client/metrics/ensemble.h"
 
-#include <cassert>
 #include <limits>
+#include <numeric>
 
 namespace farlight::client {
 namespace {
@@ -34,6 +34,13 @@ PairMeans pair_means(
     return {sums.same / static_cast<double>(runs.size()),
         pairs > 0 ? sums.different / static_cast<double>(pairs)
                   : std::numeric_limits<double>::quiet_NaN()};
+}
+
+std::vector<std::size_t> all_runs(std::size_t count)
+{
+    std::vector<std::size_t> all(count);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
 }
 
 void expect_runs(std::size_t found, std::size_t expected)
@@ -97,6 +104,19 @@ ErrorSplit Ensemble::split() const
     return {.relmse = estimate([&](const PairMeans& m) { return m.same - noise; }),
         .bias = estimate([&](const PairMeans& m) { return m.different - noise; }),
         .variance = estimate([](const PairMeans& m) { return m.same - m.different; })};
+}
+
+double Ensemble::bias() const
+{
+    expect_runs(runs_, 2);
+    return pair_means(all_runs(runs_), products_, runs_).different - reference_noise_;
+}
+
+double Ensemble::variance() const
+{
+    expect_runs(runs_, 2);
+    const PairMeans means = pair_means(all_runs(runs_), products_, runs_);
+    return means.same - means.different;
 }
 
 double Ensemble::relmse_of_mean() const

@@ -22,6 +22,9 @@ public:
     Ensemble(const std::vector<std::span<const float>>& runs, std::span<const float> reference,
         std::span<const float> reference_variance = {}, Mask mask = {});
 
+    /// Without intervals, of 2 runs or more, else MetricError.
+    double bias() const;
+    double variance() const;
     /// Seeded bootstrap over the runs, at least 3 of them, else MetricError.
     ErrorSplit split() const;
     /// Error of the mean of all runs, sqrt of which decreases as 1 / sqrt(runs) down to the bias.

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace farlight::client {
 namespace {
+
+constexpr double kHiddenBehind = 0.99;  // of its depth: what is nearer than that is another surface
 
 template <typename Of> double mean_over_pixels(std::size_t pixels, Mask mask, Of&& of)
 {
@@ -20,6 +23,21 @@ template <typename Of> double mean_over_pixels(std::size_t pixels, Mask mask, Of
     if (count == 0)
         throw MetricError("the mask leaves no pixel to compare");
     return sum / static_cast<double>(count);
+}
+
+/// The farthest depth around (x, y), where a surface that was seen there shows one as far as itself
+/// or farther however steep it is; where nothing is, that is beyond all.
+double farthest_around(std::span<const float> depth, ImageSize size, int x, int y)
+{
+    double farthest = 0;
+    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, size.height - 1); ++row)
+        for (int column = std::max(x - 1, 0); column <= std::min(x + 1, size.width - 1); ++column) {
+            const std::size_t i = static_cast<std::size_t>(row) * size.width + column;
+            const double here = static_cast<double>(depth[3 * i]);
+            farthest =
+                std::max(farthest, here > 0 ? here : std::numeric_limits<double>::infinity());
+        }
+    return farthest;
 }
 
 }  // namespace
@@ -86,6 +104,35 @@ double residual(std::span<const double> errors, std::size_t frames_after)
         throw MetricError("residual: found " + std::to_string(errors.size())
             + " frames from the step on, expected more than " + std::to_string(frames_after));
     return errors[frames_after] / errors.front();
+}
+
+std::vector<std::uint8_t> newly_revealed(std::span<const float> depth,
+    std::span<const float> motion, std::span<const float> depth_before, ImageSize size)
+{
+    for (const auto view : {depth, motion, depth_before}) {
+        expect_comparable(view, view);
+        expect_comparable(view, depth);
+    }
+    if (depth.size() != 3 * size.pixels())
+        throw MetricError("ghost: found " + std::to_string(depth.size()) + " values, expected "
+            + std::to_string(3 * size.pixels()));
+    std::vector<std::uint8_t> revealed(size.pixels(), 0);
+    for (std::size_t i = 0; i < revealed.size(); ++i) {
+        if (!(depth[3 * i] > 0))
+            continue;
+        const auto width = static_cast<std::size_t>(size.width);
+        const double x = static_cast<double>(i % width) + static_cast<double>(motion[3 * i]);
+        const double y = static_cast<double>(i / width) + static_cast<double>(motion[3 * i + 1]);
+        const bool inside = x > -0.5 && x < size.width - 0.5 && y > -0.5 && y < size.height - 0.5;
+        if (!inside)
+            continue;
+        const double expected =
+            static_cast<double>(depth[3 * i]) + static_cast<double>(motion[3 * i + 2]);
+        const double farthest = farthest_around(
+            depth_before, size, static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
+        revealed[i] = farthest < kHiddenBehind * expected ? 1 : 0;
+    }
+    return revealed;
 }
 
 double ghost_residue(std::span<const float> test, std::span<const float> reference, Mask revealed)

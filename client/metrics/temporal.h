@@ -40,6 +40,13 @@ int lag_frames(std::span<const double> errors);
 /// Residual energy: error `frames_after` the step over that of the step itself, for step responses.
 double residual(std::span<const double> errors, std::size_t frames_after);
 
+/// Pixels whose surface was hidden behind a nearer one in the frame before, by the buffers that the
+/// views `depth` and `motion` show: view depth, at most 0 where nothing is, and previous minus
+/// current position [px] and depth; three values a pixel. What came in from beyond the border
+/// leaves no old picture behind and is not counted.
+std::vector<std::uint8_t> newly_revealed(std::span<const float> depth,
+    std::span<const float> motion, std::span<const float> depth_before, ImageSize size);
+
 /// Largest |x - r| / (r + 0.01) of the pixels that `revealed` counts; throws MetricError when there
 /// is none.
 double ghost_residue(std::span<const float> test, std::span<const float> reference, Mask revealed);

@@ -180,15 +180,16 @@ private:
                 known += (known.empty() ? "" : ", ") + std::string(candidate.name);
             fail("one of " + known);
         }
-        if (take("(")) {
+        const Of of = result.call.function->of;
+        if (of != Of::kAllRuns && take("(")) {
             result.call.run = name("the name of a run");
-            if (result.call.function->takes_frame && take(",")) {
+            if (result.call.function->takes_frame() && take(",")) {
                 skip_space();
                 result.call.frame = number<int>();
             }
             if (!take(")"))
                 fail("')'");
-        } else if (result.call.function->needs_run) {
+        } else if (of != Of::kAllRuns && of != Of::kRunOrAll) {
             fail("'(' and the name of a run");
         }
         return result;
@@ -208,6 +209,18 @@ void collect_calls(const Expression& expression, std::vector<Call>& calls)
 }
 
 }  // namespace
+
+std::string_view to_string(Of of)
+{
+    switch (of) {
+    case Of::kRunOrAll: return "a run, or all";
+    case Of::kRun: return "a run";
+    case Of::kFrame: return "a run, a frame";
+    case Of::kFramesFrom: return "a run, a first frame";
+    case Of::kAllRuns: return "all runs";
+    }
+    return "";
+}
 
 const Function* find_function(std::string_view name)
 {

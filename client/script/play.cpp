@@ -4,6 +4,7 @@
 #include "client/metrics/metrics.h"
 
 #include <algorithm>
+#include <set>
 
 namespace farlight::client {
 namespace {
@@ -38,15 +39,58 @@ FrameFacts facts_of(const Frame& frame, const Picture& picture)
         .history_reset = frame.header.has(protocol::frame_flags::kHistoryReset)};
 }
 
-/// `keep(frame)` decides whose pixels are kept.
-std::pair<std::vector<FrameFacts>, std::map<int, Picture>> play_once(const Script& script,
-    const Url& url, const Settings& settings, const std::function<bool(int)>& keep)
+/// What expectations want of one run besides the facts of its frames.
+struct Wanted {
+    std::set<int> pictures;
+    std::set<int> sequences;  ///< By their first frame.
+    bool twice = false;
+    bool revealed = false;
+};
+
+Wanted wanted_of(const Script& script, const std::string& run)
+{
+    const int last = script.frames - 1;
+    Wanted wanted{.pictures = {last}};
+    for (const Expectation& expectation : script.expectations)
+        for (const Call& call : calls_in(expectation)) {
+            const Function& function = *call.function;
+            if (!call.run.empty() && call.run != run)
+                continue;
+            wanted.twice = wanted.twice || function.name == "same_bytes_twice";
+            wanted.revealed = wanted.revealed || function.name == "ghost";
+            if (function.of == Of::kFrame)
+                wanted.pictures.insert(call.frame.value_or(last));
+            if (function.name == "lag")
+                for (int i = call.frame.value_or(0); i < last; ++i)
+                    wanted.pictures.insert(i);
+            else if (function.of == Of::kFramesFrom)
+                wanted.sequences.insert(call.frame.value_or(0));
+        }
+    return wanted;
+}
+
+void take_note(PlayedRun& run, const Wanted& wanted, int frame, Picture picture)
+{
+    for (const int first : wanted.sequences) {
+        if (frame < first)
+            continue;
+        PlayedSequence& sequence = run.sequences[first];
+        if (const std::size_t bad = count_nonfinite(picture.linear))
+            sequence.nonfinite += bad;
+        else
+            sequence.meter.add(picture.linear);
+    }
+    if (wanted.pictures.contains(frame))
+        run.pictures[frame] = std::move(picture);
+}
+
+PlayedRun play_once(
+    const Script& script, const Url& url, const Settings& settings, const Wanted& wanted)
 {
     Session session(url, hello_for(script, settings));
     if (script.edits())
         session.edit(nlohmann::json::object(), /*reset=*/true);  // what the run before has left
-    std::vector<FrameFacts> facts;
-    std::map<int, Picture> pictures;
+    PlayedRun run;
     auto event = script.events.begin();
     for (int i = 0; i < script.frames; ++i) {
         bool cut = false;
@@ -59,12 +103,37 @@ std::pair<std::vector<FrameFacts>, std::map<int, Picture>> play_once(const Scrip
         }
         const Frame frame = session.draw(pose_of(script, session.welcome(), i), cut);
         Picture picture = decode_picture(frame.header, frame.payload);
-        facts.push_back(facts_of(frame, picture));
-        if (keep(i))
-            pictures[i] = std::move(picture);
+        run.frames.push_back(facts_of(frame, picture));
+        take_note(run, wanted, i, std::move(picture));
     }
     session.close();
-    return {std::move(facts), std::move(pictures)};
+    return run;
+}
+
+/// Plays the run again for what lies behind its last two frames.
+std::vector<std::uint8_t> play_revealed(const Script& script, const Url& url, Settings settings)
+{
+    const int last = script.frames - 1;
+    const auto pictures_of = [&](const char* view) {
+        settings["view"] = view;
+        return play_once(script, url, settings, {.pictures = {last - 1, last}}).pictures;
+    };
+    const std::map<int, Picture> depth = pictures_of("depth");
+    const std::map<int, Picture> motion = pictures_of("motion");
+    const Picture& now = depth.at(last);
+    return newly_revealed(
+        now.linear, motion.at(last).linear, depth.at(last - 1).linear, {now.width, now.height});
+}
+
+PlayedRun play_run(
+    const Script& script, const Url& url, const Settings& settings, const Wanted& wanted)
+{
+    PlayedRun run = play_once(script, url, settings, wanted);
+    if (wanted.twice)
+        run.again = play_once(script, url, settings, {}).frames;
+    if (wanted.revealed)
+        run.revealed = play_revealed(script, url, settings);
+    return run;
 }
 
 /// Many samples at the last frame's view, with the settings that hold there.
@@ -108,33 +177,13 @@ Picture play_reference(const Script& script, const Url& url, const Progress& pro
 
 Played play(const Script& script, const Url& url, const Progress& progress)
 {
-    std::vector<Call> calls;
-    for (const Expectation& expectation : script.expectations)
-        for (const Call& call : calls_in(expectation))
-            calls.push_back(call);
-    const auto keep = [&](int frame) {
-        return frame == script.frames - 1
-            || std::any_of(
-                calls.begin(), calls.end(), [&](const Call& call) { return call.frame == frame; });
-    };
-
     Played played;
     for (const auto& [name, settings] : script.runs) {
-        const bool twice =
-            std::any_of(calls.begin(), calls.end(), [&, &run = name](const Call& call) {
-                return call.function->name == "same_bytes_twice"
-                    && (call.run.empty() || call.run == run);
-            });
-        progress(
-            name + ": " + std::to_string(script.frames) + " frames" + (twice ? ", twice" : ""));
-        const Settings all = merged(script.settings, settings);
+        const Wanted wanted = wanted_of(script, name);
+        progress(name + ": " + std::to_string(script.frames) + " frames"
+            + (wanted.twice ? ", twice" : ""));
         try {
-            auto [frames, pictures] = play_once(script, url, all, keep);
-            PlayedRun run{
-                .frames = std::move(frames), .again = {}, .pictures = std::move(pictures)};
-            if (twice)
-                run.again = play_once(script, url, all, [](int) { return false; }).first;
-            played.runs[name] = std::move(run);
+            played.runs[name] = play_run(script, url, merged(script.settings, settings), wanted);
         } catch (const RefusedError& refused) {
             blame_script(script, "/runs/" + name, refused);
         }

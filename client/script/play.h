@@ -1,6 +1,7 @@
 // Playing a script on a server: every run, its repetition where asked for, and the reference.
 #pragma once
 
+#include "client/metrics/temporal.h"
 #include "client/script/script.h"
 #include "client/session.h"
 
@@ -17,10 +18,18 @@ struct FrameFacts {
     bool history_reset = false;
 };
 
+/// Frames from one on, to the last.
+struct PlayedSequence {
+    FlickerMeter meter;
+    std::size_t nonfinite = 0;  ///< Values of frames that therefore are not in the meter.
+};
+
 struct PlayedRun {
     std::vector<FrameFacts> frames;
     std::vector<FrameFacts> again;  ///< The second time; empty when nobody asked.
-    std::map<int, Picture> pictures;  ///< The last frame and those an expectation names.
+    std::map<int, Picture> pictures;  ///< The last frame and those an expectation is of.
+    std::map<int, PlayedSequence> sequences;  ///< By the first frame, as expectations name them.
+    std::vector<std::uint8_t> revealed;  ///< In the last frame; empty when nobody asked.
 };
 
 struct Played {

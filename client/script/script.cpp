@@ -98,16 +98,24 @@ void check_calls(const JsonInput& input, const Expectation& expectation, const S
         if (call.frame && (*call.frame < 0 || *call.frame >= script.frames))
             input.fail("frame " + std::to_string(*call.frame),
                 "0 to " + std::to_string(script.frames - 1));
+        const bool one_frame = script.frames - call.frame.value_or(0) < 2;
+        if (call.function->of == Of::kFramesFrom && one_frame)
+            input.fail("'" + function + "' of one frame", "2 frames or more");
         if (!call.function->needs_reference)
             continue;
         if (!script.reference)
             input.fail("'" + function + "' but no /reference", "a reference to compare with");
         // The reference shows the last frame's view.
-        const bool same_view = !call.frame || *call.frame == script.frames - 1
-            || std::holds_alternative<RestMove>(script.camera);
-        if (!same_view)
+        const Of of = call.function->of;
+        const bool before_last = of == Of::kFramesFrom
+            || (of == Of::kFrame && call.frame.value_or(script.frames - 1) != script.frames - 1);
+        if (before_last && !std::holds_alternative<RestMove>(script.camera))
             input.fail("'" + function + "' of a frame before the last with a moving camera",
                 "the last frame, which the reference shows");
+        if (function == "ghost" && script.frames < 2)
+            input.fail("'ghost' of one frame", "2 frames or more");
+        if (of == Of::kAllRuns && script.runs.size() < 2)
+            input.fail("'" + function + "' of one run", "2 runs or more, with different seeds");
     }
 }
 

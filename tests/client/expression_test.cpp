@@ -28,7 +28,8 @@ TEST(Expression, Arithmetic)
     for (const char* truth : {"1 + 2 * 3 == 7", "(1 + 2) * 3 == 9", "2 - 3 - 4 == -5",
              "8 / 4 / 2 == 1", "-2 * -3 == 6", "1e-3 * 1000 == 1", ".5 == 0.5", "- - 2 == 2", "1<2",
              "2>=2", "2 != 3", "mean(abc) == 3", "mean( abc , 2 ) == 203", "nonfinite == 0",
-             "nonfinite(ab) == 2", "relmse(ab) <= 0.5 * relmse(abcd)"})
+             "nonfinite(ab) == 2", "relmse(ab) <= 0.5 * relmse(abcd)", "bias + variance == 0",
+             "flicker(abc, 2) == 203", "ghost(ab) == 2"})
         EXPECT_TRUE(verdict(truth)) << truth;
     for (const char* lie : {"1 < 1", "2 <= 1", "1 > 1", "1 >= 2", "1 == 2", "1 != 1", "not_black"})
         EXPECT_FALSE(verdict(lie)) << lie;
@@ -70,8 +71,8 @@ TEST_P(ParseRefuses, SayingWhereAndWhy)
 INSTANTIATE_TEST_SUITE_P(Expectations, ParseRefuses,
     testing::Values(
         BadExpectation{"Empty", "", "column 1: found the end, expected a number or a function"},
-        BadExpectation{"UnknownFunction", "1 < ssim(a)",
-            "column 5: found 'ssim(a)', expected one of nonfinite,"},
+        BadExpectation{"UnknownFunction", "1 < beauty(a)",
+            "column 5: found 'beauty(a)', expected one of nonfinite,"},
         BadExpectation{"NoComparison", "mean(a)", "column 8: found the end, expected a comparison"},
         BadExpectation{"NumberAlone", "1", "expected a comparison"},
         BadExpectation{"PredicateCompared", "not_black == 1", "expected it alone"},
@@ -85,6 +86,7 @@ INSTANTIATE_TEST_SUITE_P(Expectations, ParseRefuses,
         BadExpectation{
             "FrameNotTaken", "frames(a, 1) == 2", "column 9: found ', 1) == 2', expected ')'"},
         BadExpectation{"FrameNotANumber", "mean(a, b) == 2", "expected a number"},
+        BadExpectation{"RunNotTaken", "bias(a) < 1", "column 5: found '(a) < 1', expected the end"},
         BadExpectation{"Unclosed", "(1 + 2 == 3", "expected ')'"},
         BadExpectation{"Dot", ". == 1", "expected a number"},
         BadExpectation{"TrailingOperator", "1 + == 2", "column 5: found '== 2'"}),

@@ -139,8 +139,23 @@ struct FakeSession {
                                                                     : absent;
     }
 
+    /// Of the views that scripts look at: a near wall before a far one gives way by 4 columns a
+    /// frame.
+    std::optional<std::vector<float>> draw_buffer() const
+    {
+        const auto view = settings.find("view");
+        if (view == settings.end() || (view->second != "depth" && view->second != "motion"))
+            return {};
+        std::vector<float> values(std::size_t{3} * size[0] * size[1], 0.0F);
+        for (std::size_t i = 0; view->second == "depth" && i < values.size(); ++i)
+            values[i] = i / 3 % size[0] + std::size_t{4} * frames < size[0] ? 1.0F : 5.0F;
+        return values;
+    }
+
     std::vector<float> draw()
     {
+        if (auto buffer = draw_buffer())
+            return *buffer;
         static std::atomic<unsigned> unrepeatable{1000};
         const auto seed = static_cast<unsigned>(number("seed", 0));
         std::mt19937 random(renderer.ignores_seed ? unrepeatable++ : seed * 1000003U + frames);

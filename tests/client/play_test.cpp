@@ -48,6 +48,33 @@ TEST(Play, VerdictsShowWhatWasFound)
     EXPECT_THAT(lines[9], HasSubstr("FAIL max(none) > 2  (1."));
 }
 
+/// The fake's noise: uniform in [0, 2], so of variance 1/3; svgf's a hundredth of it.
+TEST(Play, EveryMetricCanBeExpected)
+{
+    const auto lines = lines_for(R"json({"scene":"a","size":[32,16],"frames":4,
+        "runs":{"a":{"denoiser":"svgf","seed":1},"b":{"denoiser":"svgf","seed":2},"c":{"denoiser":"none","seed":3}},
+        "reference":{"samples":4096},
+        "expect":["relmse999(a) <= 1.0001 * relmse(a)","rmse(a) * rmse(a) - mse(a) < 1e-12","psnr(a) > psnr(c)",
+            "smape(a) < smape(c)","ssim(a) > ssim(c)","flip(a) < flip(c)","hdr_flip(a) < hdr_flip(c)",
+            "fireflies(c) == 0","flicker(c) > 9 * flicker(a, 1)","difference(a) < 0.2 * difference(c)",
+            "lag(a) == 0","lag(c, 1) <= 1","ghost(a) <= 0.12","ghost(a) > 0","ghost(c) > 0.2",
+            "bias < 0.02","variance > 0.08","flip(c, 0) != flip(c)"]})json",
+        {});
+    ASSERT_EQ(lines.size(), 18U);
+    for (const std::string& line : lines)
+        EXPECT_THAT(line, testing::StartsWith("ok  "));
+}
+
+TEST(Play, FramesThatAreNotFiniteHaveNoFlicker)
+{
+    EXPECT_THAT(
+        lines_for(
+            R"({"scene":"a","frames":4,"expect":["flicker(run) >= 0","flicker(run, 2) >= 0"]})",
+            {.nan_in_frame = 1}),
+        ElementsAre("FAIL flicker(run) >= 0  (1 values of the frames are not finite)",
+            testing::StartsWith("ok  flicker(run, 2) >= 0")));
+}
+
 TEST(Play, BytesThatDifferAreSeen)
 {
     EXPECT_THAT(lines_for(R"({"scene":"a","frames":2,"expect":["same_bytes_twice"]})",

@@ -46,11 +46,8 @@ TEST(Script, ThePageListsEveryFunction)
 {
     const std::string text = page();
     for (const Function& function : kFunctions) {
-        const std::string of = !function.needs_run ? "a run, or all"
-            : function.takes_frame                 ? "a run, a frame"
-                                                   : "a run";
-        const std::string row = "| `" + std::string(function.name) + "` | " + of + " | "
-            + std::string(function.meaning) + " |";
+        const std::string row = "| `" + std::string(function.name) + "` | "
+            + std::string(to_string(function.of)) + " | " + std::string(function.meaning) + " |";
         EXPECT_THAT(text, HasSubstr(row));
     }
 }
@@ -150,7 +147,17 @@ INSTANTIATE_TEST_SUITE_P(Scripts, ParseScriptRefuses,
             "NoReference", R"({"expect":["relmse(a) < 1"]})", "found 'relmse' but no /reference"},
         BadScript{"ReferenceElsewhere",
             R"({"reference":{"samples":9},"camera":{"orbit":{"degrees":9}},"expect":["relmse(a, 1) < 1"]})",
-            "found 'relmse' of a frame before the last with a moving camera"}),
+            "found 'relmse' of a frame before the last with a moving camera"},
+        BadScript{"LagElsewhere",
+            R"({"reference":{"samples":9},"camera":{"orbit":{"degrees":9}},"expect":["lag(a, 1) < 1"]})",
+            "found 'lag' of a frame before the last with a moving camera"},
+        BadScript{"FlickerOfOne", R"({"expect":["flicker(a, 3) < 1"]})",
+            "found 'flicker' of one frame, expected 2 frames or more"},
+        BadScript{"GhostOfOne",
+            R"({"frames":1,"reference":{"samples":9},"expect":["ghost(a) < 1"]})",
+            "found 'ghost' of one frame"},
+        BadScript{"BiasOfOne", R"({"reference":{"samples":9},"expect":["bias < 1"]})",
+            "found 'bias' of one run, expected 2 runs or more"}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(ReadScript, FilesThatAreNotJsonNameLineAndColumn)

@@ -57,9 +57,9 @@ TEST(Flicker, RefusesOneFrameOtherSizesAndNan)
 TEST(Lag, OfAnExponentialMean)
 {
     const double floor = 1e-3;
-    std::vector<double> errors;
+    std::vector<double> errors(60);
     for (int n = 0; n < 60; ++n)
-        errors.push_back(floor + std::pow(0.8, 2 * n));
+        errors[n] = floor + std::pow(0.8, 2 * n);
     EXPECT_EQ(lag_frames(errors), static_cast<int>(std::ceil(std::log(floor) / std::log(0.64))));
     EXPECT_NEAR(residual(errors, 4), std::pow(0.8, 8), 2e-3);
     EXPECT_THROW(residual(errors, 60), MetricError);
@@ -71,6 +71,59 @@ TEST(Lag, IsNoneWhereTheFirstFrameIsAsGoodAsTheLast)
     EXPECT_EQ(lag_frames(std::vector<double>{2, 1, 1}), 1);
     EXPECT_EQ(lag_frames(std::vector<double>{0.5, 0}), 2);  // nothing is below twice 0
     EXPECT_THROW(lag_frames({}), MetricError);
+}
+
+/// A near square, 4 pixels wide, moves 3 to the right in front of a floor that is steep to the eye:
+/// columns 6 to 8 come out. All that is found is among them, and all but their rim is found.
+TEST(Ghost, RevealedIsWhatANearerSurfaceHid)
+{
+    const ImageSize size{20, 12};
+    const auto depth_of = [&](int left) {
+        return synthetic_picture(
+            [=](int x, int y, int) {
+                const bool near = x >= left && x < left + 4 && y >= 3 && y < 9;
+                return near ? 1.0 : 10.0 + y;
+            },
+            size);
+    };
+    const auto motion = synthetic_picture(
+        [](int x, int y, int c) {
+            return c == 0 && x >= 9 && x < 13 && y >= 3 && y < 9 ? -3.0 : 0.0;
+        },
+        size);
+    const auto revealed = newly_revealed(depth_of(9), motion, depth_of(6), size);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const bool hidden = x >= 6 && x < 9 && y >= 3 && y < 9;
+            const bool rim = x == 6 || y == 3 || y == 8;
+            if (!hidden || !rim) {
+                EXPECT_EQ(revealed[y * 20 + x] != 0, hidden) << x << ", " << y;
+            }
+        }
+    const std::vector<float> still(size.pixels() * 3, 0.0F);
+    for (const auto pixel : newly_revealed(depth_of(9), still, depth_of(9), size))
+        EXPECT_EQ(pixel, 0);
+    EXPECT_THROW(newly_revealed(depth_of(9), still, Values(3), size), MetricError);
+}
+
+/// What comes in from beyond the border, and where nothing is, is not counted; the sky hides
+/// nothing.
+TEST(Ghost, NeitherTheBorderNorTheSkyReveals)
+{
+    const ImageSize size{6, 6};
+    const std::vector<float> near(size.pixels() * 3, 1.0F);
+    const std::vector<float> far(size.pixels() * 3, 5.0F);
+    const std::vector<float> none(size.pixels() * 3, 0.0F);
+    const std::vector<float> out(size.pixels() * 3, 9.0F);
+    const auto count = [&](const Values& now, const Values& motion, const Values& before) {
+        const auto revealed = newly_revealed(now, motion, before, size);
+        return std::count(revealed.begin(), revealed.end(), 1);
+    };
+    EXPECT_EQ(count(far, none, near), 36);
+    EXPECT_EQ(count(far, out, near), 0);
+    EXPECT_EQ(count(none, none, near), 0);
+    EXPECT_EQ(count(far, none, none), 0);
+    EXPECT_EQ(count(near, none, far), 0);
 }
 
 TEST(Ghost, IsTheLargestOfTheRevealedPixelsOnly)
