@@ -18,6 +18,8 @@ struct Options {
     std::string reference;
     CompareOptions compare;
     std::string tonemap = "aces";
+    std::string mask_file;  ///< Empty: all pixels count.
+    std::vector<std::uint8_t> mask;
     std::string heat_map;  ///< File; empty: none.
     std::string heat = "flip";
     std::vector<std::string> at_most;
@@ -99,8 +101,8 @@ ComparedFile compared(const FilePair& files, const Options& options, FlickerMete
         throw std::invalid_argument(
             "--exposure and --tonemap are of linear radiance, found " + files.test.string());
     try {
-        ComparedFile result{
-            files, test.size, test.is_light, compare(test, reference, options.compare)};
+        ComparedFile result{files, test.size, test.is_light,
+            compare(test, reference, options.compare, options.mask)};
         if (!options.heat_map.empty())
             write_picture(
                 options.heat_map, heat_map_of(options, test, reference, result.comparison));
@@ -114,7 +116,8 @@ ComparedFile compared(const FilePair& files, const Options& options, FlickerMete
 
 CompareReport compared_all(const std::vector<FilePair>& pairs, const Options& options)
 {
-    CompareReport report;
+    CompareReport report{
+        .pixels_per_degree = options.compare.pixels_per_degree, .files = {}, .sequence = {}};
     FlickerMeter sequence;
     for (const FilePair& files : pairs) {
         report.files.push_back(compared(files, options, sequence));
@@ -123,7 +126,8 @@ CompareReport compared_all(const std::vector<FilePair>& pairs, const Options& op
     }
     if (sequence.frames() > 1)
         report.sequence = ComparedSequence{sequence.frames(),
-            {{"flicker", sequence.flicker()}, {"difference", sequence.successive_difference()}}};
+            {{"flicker", sequence.flicker(options.mask)},
+                {"difference", sequence.successive_difference(options.mask)}}};
     return report;
 }
 
@@ -178,6 +182,8 @@ Command add_compare(CLI::App& farlight)
     auto* app = farlight.add_subcommand(
         "compare", "how far a picture, or a folder of them, is from its reference");
     auto options = std::make_shared<Options>();
+    app->add_option("--mask", options->mask_file,
+        "picture whose black pixels do not count: `record --set view=depth` makes one of the sky");
     app->add_option("test", options->test, "picture (.png, .jpg, .pfm, .exr) or folder")
         ->required();
     app->add_option("reference", options->reference, "what it should be, file by file name")
@@ -204,6 +210,8 @@ Command add_compare(CLI::App& farlight)
     app->add_flag("--json", options->json, "print all as JSON");
     return {app, [options, exposure, tonemap] {
                 options->display_chosen = exposure->count() + tonemap->count() > 0;
+                if (!options->mask_file.empty())
+                    options->mask = read_mask(options->mask_file);
                 options->compare.display.curve =
                     options->tonemap == "aces" ? ToneCurve::kAces : ToneCurve::kLinear;
                 return run(*options);

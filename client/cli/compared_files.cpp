@@ -44,7 +44,7 @@ std::string missing_in(const std::set<std::string>& names, const std::set<std::s
 std::string number_text(double value)
 {
     char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
+    std::snprintf(text, sizeof text, "%.4g", value);
     return text;
 }
 
@@ -52,6 +52,11 @@ std::string padded(std::string text, std::size_t width)
 {
     text.resize(std::max(text.size(), width), ' ');
     return text;
+}
+
+std::string aligned_right(const std::string& text, std::size_t width)
+{
+    return std::string(width - std::min(text.size(), width), ' ') + text;
 }
 
 std::string formula_lines(const std::vector<MetricValue>& values)
@@ -77,17 +82,17 @@ std::string pooled_line(const char* name, const Pooled& pooled)
 /// One row a file.
 std::string file_table(const CompareReport& report)
 {
-    constexpr std::size_t kColumn = 13;
+    constexpr std::size_t kColumn = 12;
     std::size_t widest = 4;
     for (const ComparedFile& file : report.files)
         widest = std::max(widest, file.files.test.filename().string().size());
-    std::string text = padded("file", widest + 2);
+    std::string text = padded("file", widest);
     for (const MetricValue& value : report.files.front().comparison.values)
-        text += padded(std::string(value.name), kColumn);
+        text += aligned_right(std::string(value.name), kColumn);
     for (const ComparedFile& file : report.files) {
-        text += "\n" + padded(file.files.test.filename().string(), widest + 2);
+        text += "\n" + padded(file.files.test.filename().string(), widest);
         for (const MetricValue& value : file.comparison.values)
-            text += padded(number_text(value.value), kColumn);
+            text += aligned_right(number_text(value.value), kColumn);
     }
     return text + "\n\n";
 }
@@ -149,6 +154,16 @@ Appearance read_appearance(const Path& file, const DisplayOptions& options)
     }
 }
 
+std::vector<std::uint8_t> read_mask(const Path& file)
+{
+    const Appearance picture = read_appearance(file, {});
+    std::vector<std::uint8_t> mask(picture.size.pixels());
+    for (std::size_t i = 0; i < mask.size(); ++i)
+        for (std::size_t channel = 3 * i; channel < 3 * i + 3; ++channel)
+            mask[i] |= picture.linear[channel] > 0 ? 1 : 0;
+    return mask;
+}
+
 std::vector<MetricValue> mean_over_files(const CompareReport& report)
 {
     std::vector<MetricValue> means = report.files.front().comparison.values;
@@ -165,9 +180,9 @@ std::string text_of(const CompareReport& report)
 {
     const ComparedFile& first = report.files.front();
     std::string text = std::to_string(first.size.width) + "x" + std::to_string(first.size.height)
-        + (first.is_light
-                ? ", x and r linear radiance, X and R as displayed\n"
-                : ", display values; x and r are decoded from sRGB, tone curve included\n");
+        + (first.is_light ? ", x and r linear radiance, X and R as displayed"
+                          : ", display values; x and r are decoded from sRGB, tone curve included")
+        + ", FLIP at " + number_text(report.pixels_per_degree) + " px a degree\n";
     if (report.files.size() > 1)
         text +=
             file_table(report) + "mean over " + std::to_string(report.files.size()) + " files\n";
@@ -186,8 +201,9 @@ std::string text_of(const CompareReport& report)
 nlohmann::json json_of(const CompareReport& report)
 {
     nlohmann::json json{{"kind", report.files.front().is_light ? "linear" : "display"},
-        {"metrics", nlohmann::json::array()}, {"files", nlohmann::json::array()},
-        {"mean", to_json(mean_over_files(report))}, {"sequence", nullptr}};
+        {"pixels_per_degree", report.pixels_per_degree}, {"metrics", nlohmann::json::array()},
+        {"files", nlohmann::json::array()}, {"mean", to_json(mean_over_files(report))},
+        {"sequence", nullptr}};
     for (const Metric& metric : kMetrics)
         json["metrics"].push_back({{"name", metric.name}, {"formula", metric.formula},
             {"meaning", metric.meaning}, {"unit", metric.unit},

@@ -25,6 +25,9 @@ std::vector<FilePair> paired(
 /// Reads a picture for comparison. Throws InputError naming the file.
 Appearance read_appearance(const std::filesystem::path& file, const DisplayOptions& options);
 
+/// The pixels that are above 0 in any channel. Throws InputError naming the file.
+std::vector<std::uint8_t> read_mask(const std::filesystem::path& file);
+
 struct ComparedFile {
     FilePair files;
     ImageSize size;
@@ -39,6 +42,7 @@ struct ComparedSequence {
 };
 
 struct CompareReport {
+    double pixels_per_degree = kPixelsPerDegree;
     std::vector<ComparedFile> files;  ///< At least one.
     std::optional<ComparedSequence> sequence;  ///< Of two frames or more.
 };

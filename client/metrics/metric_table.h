@@ -31,7 +31,7 @@ constexpr Metric kMetrics[] = {
     {"smape", "mean(2 |x - r| / (|x| + |r| + 0.01))", "share of the brightness, in [0, 2]", ""},
     {"ssim", "mean SSIM of display luminance, 11x11 Gaussian of 1.5 px, K 0.01 and 0.03",
         "likeness of structure (Wang et al. 2004), 1 is equal", "", Better::kHigher},
-    {"flip", "mean LDR-FLIP of X and R at 67 px a degree",
+    {"flip", "mean LDR-FLIP of X and R",
         "difference seen when pictures alternate (Andersson et al. 2020), in [0, 1]", ""},
     {"hdr_flip", "mean over pixels of the largest LDR-FLIP over exposures",
         "the same at every exposure (Andersson et al. 2021), in [0, 1]", ""},

@@ -25,14 +25,17 @@ template <typename Of> double mean_over_pixels(std::size_t pixels, Mask mask, Of
     return sum / static_cast<double>(count);
 }
 
-/// The farthest depth around (x, y), where a surface that was seen there shows one as far as itself
-/// or farther however steep it is; where nothing is, that is beyond all.
-double farthest_around(std::span<const float> depth, ImageSize size, int x, int y)
+/// The farthest depth of the up to four pixels around (x, y), which are those that a reprojection
+/// reads. A surface that was seen there is between them, however steep. Where nothing is, that is
+/// beyond all.
+double farthest_around(std::span<const float> depth, ImageSize size, double x, double y)
 {
     double farthest = 0;
-    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, size.height - 1); ++row)
-        for (int column = std::max(x - 1, 0); column <= std::min(x + 1, size.width - 1); ++column) {
-            const std::size_t i = static_cast<std::size_t>(row) * size.width + column;
+    for (const double row : {std::floor(y), std::ceil(y)})
+        for (const double column : {std::floor(x), std::ceil(x)}) {
+            const auto i = static_cast<std::size_t>(std::clamp(row, 0.0, size.height - 1.0))
+                    * static_cast<std::size_t>(size.width)
+                + static_cast<std::size_t>(std::clamp(column, 0.0, size.width - 1.0));
             const double here = static_cast<double>(depth[3 * i]);
             farthest =
                 std::max(farthest, here > 0 ? here : std::numeric_limits<double>::infinity());
@@ -117,27 +120,26 @@ std::vector<std::uint8_t> newly_revealed(std::span<const float> depth,
         throw MetricError("ghost: found " + std::to_string(depth.size()) + " values, expected "
             + std::to_string(3 * size.pixels()));
     std::vector<std::uint8_t> revealed(size.pixels(), 0);
+    const auto width = static_cast<std::size_t>(size.width);
     for (std::size_t i = 0; i < revealed.size(); ++i) {
         if (!(depth[3 * i] > 0))
             continue;
-        const auto width = static_cast<std::size_t>(size.width);
+        const std::size_t row = i / width;
         const double x = static_cast<double>(i % width) + static_cast<double>(motion[3 * i]);
-        const double y = static_cast<double>(i / width) + static_cast<double>(motion[3 * i + 1]);
+        const double y = static_cast<double>(row) + static_cast<double>(motion[3 * i + 1]);
         const bool inside = x > -0.5 && x < size.width - 0.5 && y > -0.5 && y < size.height - 0.5;
         if (!inside)
             continue;
         const double expected =
             static_cast<double>(depth[3 * i]) + static_cast<double>(motion[3 * i + 2]);
-        const double farthest = farthest_around(
-            depth_before, size, static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
-        revealed[i] = farthest < kHiddenBehind * expected ? 1 : 0;
+        revealed[i] = farthest_around(depth_before, size, x, y) < kHiddenBehind * expected ? 1 : 0;
     }
     return revealed;
 }
 
 double ghost_residue(std::span<const float> test, std::span<const float> reference, Mask revealed)
 {
-    if (revealed.empty())
+    if (std::count(revealed.begin(), revealed.end(), 0) == std::ssize(revealed))
         throw MetricError("ghost: no pixel is newly revealed");
     expect_comparable(test, reference, revealed);
     double largest = 0;

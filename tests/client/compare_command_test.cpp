@@ -128,6 +128,27 @@ TEST_F(CompareCommandTest, ExposureAndCurveChangeWhatIsSeenOnly)
     }
 }
 
+/// The upper half counts not at all: neither its error nor its pixels.
+TEST_F(CompareCommandTest, AMaskLeavesPixelsOut)
+{
+    const auto half = [&](const char* name, double upper, double lower) {
+        write_picture(file(name),
+            {.width = 32,
+                .height = 16,
+                .linear = synthetic_picture(
+                    [&](int, int y, int) { return y < 8 ? upper : lower; }, {32, 16}),
+                .display = {}});
+        return file(name);
+    };
+    const std::string pair = half("x.exr", 9, 1.5) + " " + half("r.exr", 1, 1);
+    const auto masked = nlohmann::json::parse(
+        compare("--json --mask " + half("depth.exr", 0, 5) + " " + pair).out)["mean"];
+    EXPECT_NEAR(masked["relmse"].get<double>(), 0.25 / 1.01, 1e-12);
+    EXPECT_EQ(masked["fireflies"], 0);
+    EXPECT_EQ(compare("--mask " + light("small.exr", 1, {16, 16}) + " " + pair).status, 1);
+    EXPECT_EQ(compare("--mask " + file("none.exr") + " " + pair).status, 2);
+}
+
 TEST_F(CompareCommandTest, FoldersAreMatchedByName)
 {
     for (const int i : {0, 1, 2}) {
