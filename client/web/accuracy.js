@@ -13,8 +13,9 @@ const ESTIMATES = 120;      // bytes of a frame header that tells errors with th
 
 /** [key, name, what it is]: the rows of numbers. */
 const ROWS = [
-    ["predicted", "Predicted error", "of the moving picture, from its two halves: noise, without what the filter blurs"],
-    ["measured", "Measured error", "of the resting picture, against samples that are not in it: noise and blur"],
+    ["predicted", "Predicted error", "of the picture that is shown, from its own samples"],
+    ["noise", "Noise in it", "the part of the predicted error that more samples take away; the rest is what the filter blurs"],
+    ["measured", "Measured error", "of the denoised picture, when it rests, against samples that are not in it"],
     ["raw", "Raw error", "of this frame's own samples without any filter"],
     ["effective", "Effective samples", "samples a pixel that a plain mean would need for the picture's error"],
     ["samples", "Samples a pixel", "of this frame, and in all since camera or settings last changed"],
@@ -31,7 +32,8 @@ function cellsOf(header, roundTrip) {
     const whole = width === full_width && height === full_height;
     const intervalOf = (kind, before, after) => interval({ lower: header[`${kind}_lower`], upper: header[`${kind}_upper`] }, before, after);
     return {
-        predicted: [errorNumber(header.predicted_error), intervalOf("predicted") || "while moving"],
+        predicted: [errorNumber(header.predicted_error), intervalOf("predicted")],
+        noise: [errorNumber(header.noise_error), "the rest is blur"],
         measured: [errorNumber(header.measured_error), header.reference_samples ? `${intervalOf("measured", "", ", ")}against ${header.reference_samples} samples` : "while still"],
         raw: [errorNumber(header.raw_error), ""],
         effective: [Number.isFinite(header.effective_samples) ? errorNumber(header.effective_samples, 3) : "–", ""],
@@ -106,7 +108,7 @@ export class Accuracy {
         const now = performance.now();
         if (error?.value > 0 && ms > 0 && now - this.#steppedAt >= STEP_MS) {
             this.#steppedAt = now;
-            this.#trail.push({ ms, error: error.value, measured: error.measured });
+            this.#trail.push({ ms, error: error.value, still: header.flags.still });
             this.#trail.splice(0, this.#trail.length - TRAIL - 1);
             this.#drawPlot();
         }
@@ -135,8 +137,8 @@ export class Accuracy {
         for (const [key, texts] of Object.entries(cellsOf(this.#header, this.#roundTrip())))
             this.#cells[key].forEach((cell, i) => { cell.textContent = texts[i]; });
         const estimates = this.#header.header_size >= ESTIMATES;
-        for (const key of ["predicted", "measured", "raw", "effective"])
-            this.#cells[key][0].parentElement.hidden = !estimates && this.#cells[key][0].textContent === "–";
+        for (const key of ["predicted", "noise", "measured", "raw", "effective"])
+            this.#cells[key][0].parentElement.hidden = (!estimates || key === "noise") && this.#cells[key][0].textContent === "–";
         this.#nodes.formula.hidden = !estimates;
         this.#cells.faulty[0].parentElement.classList.toggle("bad", this.#header.nonfinite_count !== 0);
     }

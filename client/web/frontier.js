@@ -49,9 +49,9 @@ export function interval({ lower, upper }, before = "", after = "") {
     return Number.isFinite(lower) && Number.isFinite(upper) ? `${before}${errorNumber(lower)} to ${errorNumber(upper)}${after}` : "";
 }
 
-/** The error to tell of a frame, measured where there is one: {value, lower, upper, measured}, or null. */
+/** The error to tell of a frame: of the picture that is shown, else of the denoised one behind it. {value, lower, upper, measured}, or null. */
 export function errorOf(header) {
-    for (const kind of ["measured", "predicted"])
+    for (const kind of ["predicted", "measured"])
         if (Number.isFinite(header[`${kind}_error`]))
             return { value: header[`${kind}_error`], lower: header[`${kind}_lower`], upper: header[`${kind}_upper`], measured: kind === "measured" };
     return null;

@@ -45,7 +45,7 @@ export class FrontierPlot {
         new ResizeObserver(() => this.#fit()).observe(node);
     }
 
-    /** `live` and `trail` are {ms, error, measured}, `target` is {kind, value} or null, `describe` the words for who cannot see it. */
+    /** `live` and `trail` are {ms, error, still}, `target` is {kind, value} or null, `describe` the words for who cannot see it. */
     show({ points, live, trail, target }, describe) {
         this.#points = points.filter(({ error }) => error > 0);
         this.#untold = points.filter(({ error }) => !(error > 0));
@@ -104,11 +104,11 @@ export class FrontierPlot {
         this.#drawTarget(context, plot, ratio);
         this.#trail.forEach((point, i) => {
             context.globalAlpha = 0.25 + 0.4 * i / this.#trail.length;
-            mark(context, at(point), 2 * ratio, point.measured);
+            mark(context, at(point), 2 * ratio, point.still);
         });
         context.globalAlpha = 1;
         if (this.#live)
-            mark(context, at(this.#live), 5.5 * ratio, this.#live.measured, "#fff");
+            mark(context, at(this.#live), 5.5 * ratio, this.#live.still, "#fff");
         context.restore();
     }
 
@@ -150,11 +150,11 @@ export class FrontierPlot {
     }
 }
 
-/** A measured error is a diamond, a predicted one a disc. */
-function mark(context, [x, y], size, measured, outline) {
-    context.fillStyle = measured ? GREEN : ORANGE;
+/** A picture at rest is a diamond, a moving one a disc. */
+function mark(context, [x, y], size, still, outline) {
+    context.fillStyle = still ? GREEN : ORANGE;
     context.beginPath();
-    if (measured) {
+    if (still) {
         context.moveTo(x, y - 1.25 * size);
         context.lineTo(x + 1.25 * size, y);
         context.lineTo(x, y + 1.25 * size);

@@ -17,7 +17,7 @@ export const FIGURES = [
     ["network", "Round trip", "a ping to the server and back, median of the last two minutes"],
     ["picture", "Picture", "size and format of the newest frame"],
     ["traffic", "Traffic", "size of the newest frame, and bytes received a second"],
-    ["error", "Error", "relMSE = mean((x − r)² / (r² + 0.01)): predicted while moving, measured while still"],
+    ["error", "Error", "relMSE = mean((x − r)² / (r² + 0.01)) of the picture; how it is known is said beside it"],
     ["samples", "Samples", "paths a pixel in this picture since camera or settings last changed"],
     ["nonfinite", "Non-finite", "NaN and infinite values met while drawing; 0 in a healthy picture"],
 ];

@@ -84,11 +84,11 @@ test("numbers and durations are short", () => {
     assert.equal(interval({ lower: NaN, upper: 0.002 }, "("), "");
 });
 
-test("a frame's error is the measured one where there is one", () => {
-    const header = { predicted_error: 2, predicted_lower: 1, predicted_upper: 3, measured_error: NaN, measured_lower: NaN, measured_upper: NaN };
+test("a frame's error is that of the picture shown, else the measured one", () => {
+    const header = { predicted_error: 2, predicted_lower: 1, predicted_upper: 3, measured_error: 5, measured_lower: 4, measured_upper: 6 };
     assert.deepEqual(errorOf(header), { value: 2, lower: 1, upper: 3, measured: false });
-    assert.equal(errorOf({ ...header, measured_error: 5 }).value, 5);
-    assert.equal(errorOf({ ...header, predicted_error: NaN }), null);
+    assert.deepEqual(errorOf({ ...header, predicted_error: NaN }), { value: 5, lower: 4, upper: 6, measured: true });
+    assert.equal(errorOf({ ...header, predicted_error: NaN, measured_error: NaN }), null);
 });
 
 test("the slider's scale is logarithmic, holds all points, and right is finer", () => {
