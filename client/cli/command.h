@@ -26,6 +26,7 @@ Command add_record(CLI::App& farlight);
 Command add_script(CLI::App& farlight);
 Command add_bench(CLI::App& farlight);
 Command add_compare(CLI::App& farlight);
+Command add_accuracy(CLI::App& farlight);
 
 /// A line for people, on stderr: stdout is for results.
 void say(const std::string& line);

@@ -38,8 +38,8 @@ int run(int argc, char** argv)
     CLI::App app("farlight: asks, records, tests and measures a Farlight render server");
     app.set_version_flag("--version", "farlight " FARLIGHT_VERSION);
     app.require_subcommand(1);
-    const std::vector<Command> commands{
-        add_info(app), add_record(app), add_script(app), add_bench(app), add_compare(app)};
+    const std::vector<Command> commands{add_info(app), add_record(app), add_script(app),
+        add_bench(app), add_compare(app), add_accuracy(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {

@@ -1,0 +1,181 @@
+// Patches by effect, and turns with and without.
+#include "client/accuracy/effect_costs.h"
+
+#include "client/metrics/ensemble.h"
+
+#include <numeric>
+
+namespace farlight::client {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::chrono::seconds kCompileTimeout{120};
+constexpr int kSettlingFrames = 6;  // histories fill; the picture's textures are made anew
+
+/// Takes the keys out of every material that has one of them.
+json without_in_materials(const json& document, const std::vector<const char*>& keys)
+{
+    json patch;
+    if (!document.contains("materials"))
+        return patch;
+    for (const auto& [name, material] : document["materials"].items())
+        for (const char* key : keys)
+            if (material.contains(key))
+                patch["materials"][name][key] = nullptr;
+    return patch;
+}
+
+json without_member(const json& document, const char* key)
+{
+    return document.contains(key) ? json{{key, nullptr}} : json();
+}
+
+/// Sums of passes of frames drawn now [ms].
+std::vector<double> take_turn(Rig& rig, int frames)
+{
+    for (int i = 0; i < kSettlingFrames; ++i)
+        rig.draw();
+    std::vector<double> times;
+    for (int i = 0; i < frames; ++i) {
+        const auto header = rig.draw().header;
+        times.push_back(std::accumulate(
+            header.passes.begin(), header.passes.end(), 0.0, [](double sum, const auto& pass) {
+                return sum + static_cast<double>(pass.milliseconds);
+            }));
+    }
+    return times;
+}
+
+void append_to(std::vector<double>& all, const std::vector<double>& more)
+{
+    all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Two states of scene or settings take turns, A B B A.
+class Contest {
+public:
+    Contest(Rig& rig, int frames) : rig_(rig), frames_(frames) { }
+
+    json measure(const std::function<void()>& with, const std::function<void()>& without)
+    {
+        for (const bool has : {true, false, false, true}) {
+            has ? with() : without();
+            append_to(has ? with_ : without_, take_turn(rig_, frames_));
+        }
+        const RatioOfMedians ratio = ratio_of_medians(with_, without_);
+        return {{"ms_with", median(with_)}, {"ms_without", median(without_)},
+            {"ratio", ratio.ratio}, {"ratio_lower", ratio.interval.lower},
+            {"ratio_upper", ratio.interval.upper}};
+    }
+
+private:
+    Rig& rig_;
+    int frames_;
+    std::vector<double> with_;
+    std::vector<double> without_;
+};
+
+json row_of(Rig& rig, const EffectsPlan& plan, const json& patch)
+{
+    const auto show = [&](const json& change) {
+        rig.session().edit(change, /*reset=*/true);
+        rig.session().await_own_programs(rig.welcome().camera, kCompileTimeout);
+    };
+    const auto noise = [&] {
+        return relative_noise(
+            draw_seeds(rig, plan.raw, {.seeds = plan.seeds, .settings = plan.settings}));
+    };
+    json row;
+    rig.choose(plan.filtered.settings);
+    show(patch);
+    row["noise_without"] = noise();
+    show(json::object());
+    row["noise_with"] = noise();
+    rig.choose(plan.filtered.settings);
+    row.update(
+        Contest(rig, plan.frames).measure([&] { show(json::object()); }, [&] { show(patch); }));
+    show(json::object());
+    return row;
+}
+
+}  // namespace
+
+json removal_of(const std::string& effect, const json& document)
+{
+    static const std::map<std::string, std::vector<const char*>> material_keys{
+        {"normal_maps", {"normal_texture", "clearcoat_normal_texture"}},
+        {"clearcoat",
+            {"clearcoat", "clearcoat_texture", "clearcoat_roughness_texture",
+                "clearcoat_normal_texture"}},
+        {"alpha", {"alpha_mode", "opacity", "alpha_cutoff"}},
+        {"dielectric", {"transmission", "transmission_texture"}}, {"unlit", {"unlit"}},
+        {"textures",
+            {"albedo_texture", "emission_texture", "metallic_roughness_texture", "normal_texture",
+                "specular_texture", "specular_color_texture", "transmission_texture",
+                "clearcoat_texture", "clearcoat_roughness_texture", "clearcoat_normal_texture"}}};
+    if (!document.is_object())
+        return {};
+    if (const auto keys = material_keys.find(effect); keys != material_keys.end())
+        return without_in_materials(document, keys->second);
+    if (effect == "fog")
+        return without_member(document, "fog");
+    if (effect == "environment_map")
+        return without_member(document, "environment");
+    if (effect == "delta_lights")
+        return without_member(document, "lights");
+    if (effect == "lens")
+        return {{"camera", {{"lens_radius", 0}}}};
+    return {};
+}
+
+double relative_noise(const std::vector<std::vector<float>>& pictures)
+{
+    const std::vector<std::span<const float>> runs(pictures.begin(), pictures.end());
+    const std::vector<float> mean = mean_picture(runs);
+    const std::vector<float> variance = variance_picture(runs);
+    double sum = 0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        const auto m = static_cast<double>(mean[i]);
+        sum += static_cast<double>(variance[i]) / (m * m + kRelMseEpsilon);
+    }
+    return sum / static_cast<double>(mean.size());
+}
+
+json measure_effects(Rig& rig, const EffectsPlan& plan, const json& document, Progress& progress)
+{
+    json result{{"rows", json::array()}};
+    rig.choose(plan.settings);
+    rig.choose(plan.filtered.settings);
+    rig.choose({{"effects", "auto"}});
+    const protocol::Inspection scene =
+        rig.session().await_own_programs(rig.welcome().camera, kCompileTimeout);
+    progress.phase("effects: own programs against general ones");
+    result["general"] = Contest(rig, plan.frames)
+                            .measure(
+                                [&] {
+                                    rig.choose({{"effects", "general"}});
+                                },
+                                [&] {
+                                    rig.choose({{"effects", "auto"}});
+                                });
+    for (const protocol::CalledEffect& effect : scene.effects) {
+        if (!effect.setting.empty())
+            continue;
+        json row{{"effect", effect.name}, {"reason", effect.reason}};
+        const json patch = removal_of(effect.name, document);
+        if (!patch.is_null() && rig.welcome().edits) {
+            progress.phase("effects: with and without " + effect.name);
+            try {
+                row.update(row_of(rig, plan, patch));
+            } catch (const RefusedError& refused) {
+                row["refused"] = refused.error.message;  // something else needs it
+                rig.session().edit(json::object(), /*reset=*/true);
+            }
+        }
+        result["rows"].push_back(std::move(row));
+    }
+    return result;
+}
+
+}  // namespace farlight::client

@@ -1,0 +1,114 @@
+// Frames with many seeds, and what they say together.
+#include "client/accuracy/errors.h"
+
+#include "client/metrics/display.h"
+#include "client/metrics/ensemble.h"
+#include "client/metrics/flip.h"
+
+#include <algorithm>
+
+namespace farlight::client {
+namespace {
+
+using nlohmann::json;
+using Pictures = std::vector<std::vector<float>>;
+
+/// An error below 5 standard deviations of the reference is as much the reference's as its own.
+constexpr double kReferenceFactor = 5;
+
+/// Raw samples remember nothing.
+int history_of(const SweepPoint& point, const ErrorPlan& plan)
+{
+    return point.denoiser() == kRaw ? 0 : plan.history;
+}
+
+double mean_flip(const Pictures& pictures, const ReferencePicture& reference, int seeds)
+{
+    const std::vector<float> shown = display_of_linear(reference.mean);
+    double sum = 0;
+    const auto count = std::min(pictures.size(), static_cast<std::size_t>(seeds));
+    for (std::size_t i = 0; i < count; ++i)
+        sum += pool(ldr_flip(display_of_linear(pictures[i]), shown, reference.size)).mean;
+    return sum / static_cast<double>(count);
+}
+
+double mean_over(const Pictures& pictures, const auto& metric)
+{
+    double sum = 0;
+    for (const auto& picture : pictures)
+        sum += metric(picture);
+    return sum / static_cast<double>(pictures.size());
+}
+
+}  // namespace
+
+json json_of(const Estimate& estimate)
+{
+    return {{"value", estimate.value}, {"lower", estimate.interval.lower},
+        {"upper", estimate.interval.upper}};
+}
+
+Pictures draw_seeds(Rig& rig, const SweepPoint& point, const ErrorPlan& plan)
+{
+    Pictures pictures;
+    rig.choose(plan.settings);
+    rig.choose(point.settings);
+    for (int seed = 1; seed <= plan.seeds; ++seed) {
+        rig.choose({{"seed", seed}});
+        pictures.push_back(linear_picture(rig.draw_after(history_of(point, plan))).linear);
+    }
+    return pictures;
+}
+
+double work_of_seeds(const SweepPoint& point, const ErrorPlan& plan)
+{
+    return work_of(point.settings) * (1 + history_of(point, plan)) * plan.seeds;
+}
+
+json measured_error(const Pictures& pictures, const ReferencePicture& reference, int flip_seeds)
+{
+    std::vector<std::span<const float>> runs(pictures.begin(), pictures.end());
+    const ErrorSplit split = Ensemble(runs, reference.mean, reference.variance).split();
+    const double own = reference.own_relmse();
+    return {{"relmse", json_of(split.relmse)}, {"bias", json_of(split.bias)},
+        {"variance", json_of(split.variance)},
+        {"relmse999",
+            mean_over(pictures,
+                [&](const auto& picture) { return relative_mse_999(picture, reference.mean); })},
+        {"mse",
+            mean_over(pictures,
+                [&](const auto& picture) { return mean_square_error(picture, reference.mean); })},
+        {"fireflies",
+            mean_over(pictures,
+                [&](const auto& picture) { return count_fireflies(picture, reference.mean); })},
+        {"flip", mean_flip(pictures, reference, flip_seeds)},
+        {"reference_limited", !(split.relmse.value >= kReferenceFactor * kReferenceFactor * own)}};
+}
+
+std::map<int, json> averaging_errors(Rig& rig, const ErrorPlan& plan,
+    const ReferencePicture& reference, const std::vector<int>& after)
+{
+    std::map<int, Pictures> pictures;
+    rig.choose(plan.settings);
+    rig.choose({{"denoiser", kAveraging}, {"samples_per_pixel", 1}});
+    for (int seed = 1; seed <= plan.seeds; ++seed) {
+        rig.choose({{"seed", seed}});
+        for (int frames = 1; frames <= after.back(); ++frames) {
+            const Frame frame = rig.draw(/*cut=*/frames == 1);
+            if (std::find(after.begin(), after.end(), frames) != after.end())
+                pictures[frames].push_back(linear_picture(frame).linear);
+        }
+    }
+    std::map<int, json> errors;
+    for (const auto& [frames, of_all_seeds] : pictures)
+        errors[frames] = measured_error(of_all_seeds, reference, plan.flip_seeds);
+    return errors;
+}
+
+double work_of_averaging(const ErrorPlan& plan, const std::vector<int>& after)
+{
+    return work_of({{"denoiser", kAveraging}, {"samples_per_pixel", 1}}) * after.back()
+        * plan.seeds;
+}
+
+}  // namespace farlight::client

@@ -1,0 +1,121 @@
+// All points share their scales, so that colours can be compared.
+#include "client/accuracy/gallery.h"
+
+#include "client/accuracy/heat_map.h"
+#include "client/metrics/display.h"
+#include "client/metrics/ensemble.h"
+#include "client/metrics/flip.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farlight::client {
+namespace {
+
+using nlohmann::json;
+
+/// Of logarithmic scales: from the top, which a thousandth of the pixels exceed, three decades.
+constexpr double kDecades = 1e3;
+constexpr double kBelowTop = 0.999;
+constexpr int kBarPixels = 128;
+
+/// One point's maps before they are coloured, a value a pixel.
+struct Maps {
+    std::vector<float> frame;  ///< Linear RGB.
+    std::vector<float> absolute;  ///< |x - r|
+    std::vector<float> bias;  ///< mean(x) - r
+    std::vector<float> deviation;  ///< Of x over the seeds.
+    std::vector<float> flip;
+};
+
+Maps maps_of(const std::vector<std::vector<float>>& pictures, const ReferencePicture& reference)
+{
+    std::vector<std::span<const float>> runs(pictures.begin(), pictures.end());
+    Maps maps{.frame = pictures.front()};
+    std::vector<float> absolute = pictures.front();
+    std::vector<float> bias = mean_picture(runs);
+    std::vector<float> deviation = variance_picture(runs);
+    for (std::size_t i = 0; i < absolute.size(); ++i) {
+        absolute[i] = std::abs(absolute[i] - reference.mean[i]);
+        bias[i] -= reference.mean[i];
+        deviation[i] = std::sqrt(deviation[i]);
+    }
+    maps.absolute = channel_means(absolute);
+    maps.bias = channel_means(bias);
+    maps.deviation = channel_means(deviation);
+    maps.flip =
+        ldr_flip(display_of_linear(maps.frame), display_of_linear(reference.mean), reference.size);
+    return maps;
+}
+
+std::string shown(std::span<const float> linear, ImageSize size)
+{
+    std::vector<std::uint8_t> bytes;
+    for (const float value : display_of_linear(linear))
+        bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * value)));
+    return png_data_uri(bytes, size);
+}
+
+std::string bar(Palette palette)
+{
+    std::vector<float> shares;
+    for (int i = 0; i < kBarPixels; ++i)
+        shares.push_back(static_cast<float>(i) / (kBarPixels - 1));
+    return png_data_uri(colored(shares, palette), {kBarPixels, 1});
+}
+
+}  // namespace
+
+std::vector<std::size_t> spread(std::size_t size, std::size_t count)
+{
+    std::vector<std::size_t> positions;
+    if (size <= count)
+        count = size;
+    for (std::size_t i = 0; i < count; ++i)
+        positions.push_back(count == 1 ? 0 : i * (size - 1) / (count - 1));
+    return positions;
+}
+
+json draw_gallery(Rig& rig, const std::vector<SweepPoint>& points, const ErrorPlan& plan,
+    const ReferencePicture& reference)
+{
+    std::vector<Maps> all;
+    double top = 0;
+    double bound = 0;
+    for (const SweepPoint& point : points) {
+        all.push_back(maps_of(draw_seeds(rig, point, plan), reference));
+        top = std::max(top, quantile_of(all.back().absolute, kBelowTop));
+        std::vector<float> sizes = all.back().bias;
+        for (float& value : sizes)
+            value = std::abs(value);
+        bound = std::max(bound, quantile_of(std::move(sizes), kBelowTop));
+    }
+    // A scene without any error still has scales.
+    top = top > 0 ? top : 1;
+    bound = bound > 0 ? bound : 1;
+    const double bottom = top / kDecades;
+    json gallery{{"reference", shown(reference.mean, reference.size)},
+        {"size", {reference.size.width, reference.size.height}},
+        {"scales",
+            {{"absolute", {{"lower", bottom}, {"upper", top}, {"bar", bar(Palette::kViridis)}}},
+                {"flip", {{"lower", 0}, {"upper", 1}, {"bar", bar(Palette::kMagma)}}},
+                {"bias", {{"lower", -bound}, {"upper", bound}, {"bar", bar(Palette::kDiverging)}}},
+                {"deviation",
+                    {{"lower", bottom}, {"upper", top}, {"bar", bar(Palette::kViridis)}}}}},
+        {"points", json::array()}};
+    const auto map = [&](const std::vector<float>& shares, Palette palette) {
+        return png_data_uri(colored(shares, palette), reference.size);
+    };
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Maps& maps = all[i];
+        gallery["points"].push_back(
+            {{"label", points[i].label}, {"frame", shown(maps.frame, reference.size)},
+                {"absolute", map(log_shares(maps.absolute, bottom, top), Palette::kViridis)},
+                {"flip", map(maps.flip, Palette::kMagma)},
+                {"bias", map(signed_shares(maps.bias, bound), Palette::kDiverging)},
+                {"deviation", map(log_shares(maps.deviation, bottom, top), Palette::kViridis)}});
+    }
+    return gallery;
+}
+
+}  // namespace farlight::client

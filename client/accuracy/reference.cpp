@@ -1,0 +1,106 @@
+// Batches of the averaging denoiser.
+#include "client/accuracy/reference.h"
+
+#include "client/accuracy/grid.h"
+#include "client/metrics/ensemble.h"
+#include "client/picture_file.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace farlight::client {
+namespace {
+
+/// Keeps a frame short enough for any server's watchdog.
+constexpr double kSamplesPerFrame = 4e6;
+constexpr int kMaxSamplesPerPixel = 256;
+
+struct BatchPlan {
+    int samples_per_frame;
+    int frames;
+};
+
+BatchPlan batch_plan(const ReferencePlan& plan, std::size_t pixels)
+{
+    const int wanted = (plan.samples + plan.batches - 1) / plan.batches;
+    const int per_frame =
+        std::clamp(static_cast<int>(kSamplesPerFrame / static_cast<double>(pixels)), 1,
+            std::min(kMaxSamplesPerPixel, wanted));
+    return {per_frame, (wanted + per_frame - 1) / per_frame};
+}
+
+Picture draw_batch(Rig& rig, const ReferencePlan& plan, int batch)
+{
+    const auto [width, height] = rig.welcome().size;
+    const BatchPlan frames = batch_plan(plan, static_cast<std::size_t>(width) * height);
+    Settings settings = plan.settings;
+    settings["denoiser"] = kAveraging;
+    settings["samples_per_pixel"] = frames.samples_per_frame;
+    settings["seed"] = kFirstReferenceSeed + static_cast<std::uint32_t>(batch);
+    rig.choose(settings);
+    Frame frame = rig.draw(/*cut=*/true);
+    for (int i = 1; i < frames.frames; ++i)
+        frame = rig.draw();
+    return linear_picture(frame);
+}
+
+}  // namespace
+
+double ReferencePlan::work(const protocol::Size& size) const
+{
+    const BatchPlan plan = batch_plan(*this, static_cast<std::size_t>(size[0]) * size[1]);
+    return work_of({{"denoiser", kAveraging}, {"samples_per_pixel", plan.samples_per_frame}})
+        * plan.frames * batches;
+}
+
+double ReferencePicture::own_relmse() const
+{
+    double sum = 0;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        const double r = static_cast<double>(mean[i]);
+        sum += static_cast<double>(variance[i]) / (r * r + kRelMseEpsilon);
+    }
+    return sum / static_cast<double>(mean.size());
+}
+
+ReferencePicture reference_of(const std::vector<Picture>& batches)
+{
+    assert(batches.size() >= 2);
+    std::vector<std::span<const float>> runs;
+    for (const Picture& batch : batches)
+        runs.emplace_back(batch.linear);
+    ReferencePicture reference{.size = {batches.front().width, batches.front().height},
+        .mean = mean_picture(runs),
+        .variance = variance_picture(runs)};
+    for (float& value : reference.variance)
+        value /= static_cast<float>(batches.size());
+    return reference;
+}
+
+ReferencePicture draw_reference(
+    Rig& rig, const ReferencePlan& plan, const std::filesystem::path& folder, Progress& progress)
+{
+    std::vector<Picture> batches;
+    const double work = plan.work(rig.welcome().size) / plan.batches;
+    for (int i = 0; i < plan.batches; ++i) {
+        const std::filesystem::path file = folder / ("batch_" + std::to_string(i) + ".pfm");
+        if (!folder.empty() && std::filesystem::exists(file)) {
+            batches.push_back(read_picture(file));
+            progress.drop(work);
+            continue;
+        }
+        batches.push_back(draw_batch(rig, plan, i));
+        if (folder.empty())
+            continue;
+        const std::filesystem::path unfinished = folder / "unfinished.pfm";
+        write_picture(unfinished, batches.back());
+        std::filesystem::rename(unfinished, file);  // a batch is there whole or not at all
+    }
+    ReferencePicture reference = reference_of(batches);
+    const auto [width, height] = rig.welcome().size;
+    const BatchPlan frames = batch_plan(plan, static_cast<std::size_t>(width) * height);
+    reference.samples = frames.samples_per_frame * frames.frames * plan.batches;
+    return reference;
+}
+
+}  // namespace farlight::client

@@ -1,0 +1,203 @@
+// The smaller parts of a sweep: journal, enlarged pictures, colours, references, patches of scenes.
+#include "client/accuracy/effect_costs.h"
+#include "client/accuracy/gallery.h"
+#include "client/accuracy/heat_map.h"
+#include "client/accuracy/journal.h"
+#include "client/accuracy/progress.h"
+#include "client/accuracy/response.h"
+#include "client/accuracy/times.h"
+
+#include <gmock/gmock.h>
+
+namespace farlight {
+namespace {
+
+using namespace client;
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class JournalTest : public testing::Test {
+protected:
+    JournalTest() { std::filesystem::remove(file_); }
+    ~JournalTest() override { std::filesystem::remove(file_); }
+
+    std::filesystem::path file_ = std::filesystem::path(testing::TempDir())
+        / ("farlight_journal_" + std::to_string(::getpid()));
+    json key_{{"scene", "a"}, {"size", {16, 9}}};
+};
+
+TEST_F(JournalTest, WhatWasMeasuredIsThereTheNextTime)
+{
+    {
+        Journal journal(file_, key_);
+        EXPECT_TRUE(journal.fresh());
+        EXPECT_EQ(journal.finding(), "");
+        journal.add("error a", 1);
+        journal.add("error b", {{"relmse", 0.5}});
+        journal.add("error a", 2);
+    }
+    std::ofstream(file_, std::ios::app) << "{\"name\": \"error c\", \"val";  // killed while writing
+    const Journal journal(file_, key_);
+    EXPECT_FALSE(journal.fresh());
+    EXPECT_THAT(journal.finding(), HasSubstr("2 measurements are done"));
+    EXPECT_EQ(*journal.find("error a"), 2);
+    EXPECT_EQ(journal.find("error b")->at("relmse"), 0.5);
+    EXPECT_EQ(journal.find("error c"), nullptr);
+}
+
+TEST_F(JournalTest, AnotherKeyStartsAnewAndSaysWhatChanged)
+{
+    Journal(file_, key_).add("error a", 1);
+    key_["size"] = {32, 18};
+    {
+        const Journal journal(file_, key_);
+        EXPECT_TRUE(journal.fresh());
+        EXPECT_THAT(journal.finding(), HasSubstr("another size: everything is measured anew"));
+        EXPECT_EQ(journal.find("error a"), nullptr);
+    }
+    EXPECT_FALSE(Journal(file_, key_).fresh());  // begun with the new key
+}
+
+TEST_F(JournalTest, ALineAfterABrokenOneIsKept)
+{
+    Journal(file_, key_).add("error a", 1);
+    std::ofstream(file_, std::ios::app) << "{\"name\": \"err";
+    Journal(file_, key_).add("error b", 2);
+    EXPECT_NE(Journal(file_, key_).find("error b"), nullptr);
+}
+
+TEST_F(JournalTest, AnotherFileIsNoJournal)
+{
+    std::ofstream(file_) << "notes\n";
+    EXPECT_THAT(Journal(file_, key_).finding(), HasSubstr("no journal"));
+}
+
+TEST(Enlarged, KeepsAConstantAndInterpolatesBetweenCentres)
+{
+    const Picture flat{.width = 3, .height = 2, .linear = std::vector<float>(18, 0.3F)};
+    for (const float value : enlarged(flat, 7, 5).linear)
+        EXPECT_FLOAT_EQ(value, 0.3F);
+    const Picture two{.width = 2, .height = 1, .linear = {0, 0, 0, 1, 1, 1}};
+    const Picture four = enlarged(two, 4, 1);
+    std::vector<float> red;
+    for (std::size_t i = 0; i < four.linear.size(); i += 3)
+        red.push_back(four.linear[i]);
+    EXPECT_THAT(red, ElementsAre(0.0F, 0.25F, 0.75F, 1.0F));
+}
+
+TEST(HeatMap, Base64IsAsTheStandardSays)  // RFC 4648, section 10
+{
+    const auto encoded = [](const std::string& text) {
+        return base64(std::vector<std::uint8_t>(text.begin(), text.end()));
+    };
+    EXPECT_EQ(encoded(""), "");
+    EXPECT_EQ(encoded("f"), "Zg==");
+    EXPECT_EQ(encoded("fo"), "Zm8=");
+    EXPECT_EQ(encoded("foo"), "Zm9v");
+    EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+TEST(HeatMap, PalettesHoldTheirEnds)
+{
+    const std::vector<float> shares{-1, 0, 0.5F, 1, 2, std::numeric_limits<float>::quiet_NaN()};
+    EXPECT_THAT(colored(shares, Palette::kDiverging),
+        ElementsAre(0x00, 0x72, 0xb2, 0x00, 0x72, 0xb2, 0xff, 0xff, 0xff, 0xd5, 0x5e, 0x00, 0xd5,
+            0x5e, 0x00, 0x00, 0x72, 0xb2));
+    // In grey they ascend.
+    for (const Palette palette : {Palette::kMagma, Palette::kViridis}) {
+        double before = -1;
+        for (float share = 0; share <= 1; share += 0.125F) {
+            const auto rgb = colored(std::vector{share}, palette);
+            const double grey = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+            EXPECT_GT(grey, before);
+            before = grey;
+        }
+    }
+}
+
+TEST(HeatMap, LogarithmicAndSignedShares)
+{
+    EXPECT_THAT(log_shares(std::vector{0.0F, 0.01F, 0.1F, 1.0F}, 0.01, 1),
+        ElementsAre(0, testing::FloatNear(0, 1e-6F), testing::FloatNear(0.5F, 1e-6F), 1));
+    EXPECT_THAT(signed_shares(std::vector{-2.0F, 0.0F, 1.0F}, 2), ElementsAre(0, 0.5F, 0.75F));
+}
+
+TEST(Gallery, SpreadKeepsBothEnds)
+{
+    EXPECT_THAT(spread(9, 4), ElementsAre(0U, 2U, 5U, 8U));
+    EXPECT_THAT(spread(2, 4), ElementsAre(0U, 1U));
+    EXPECT_THAT(spread(0, 4), ElementsAre());
+}
+
+TEST(Reference, VarianceIsThatOfTheMean)
+{
+    std::vector<Picture> batches;
+    for (const float value : {1.0F, 2.0F, 3.0F})
+        batches.push_back({.width = 1, .height = 1, .linear = {value, 1, 0}});
+    const ReferencePicture reference = reference_of(batches);
+    EXPECT_THAT(reference.mean, ElementsAre(2, 1, 0));
+    EXPECT_FLOAT_EQ(reference.variance[0], 1.0F / 3);  // sample variance 1, 3 batches
+    EXPECT_FLOAT_EQ(reference.variance[1], 0);
+    EXPECT_NEAR(reference.own_relmse(), (1.0 / 3 / 4.01) / 3, 1e-7);  // variance in float
+}
+
+TEST(Response, DimsEveryLightThatIsNamed)
+{
+    const json document = json::parse(R"({
+        "materials": {"lamp": {"emission": [4, 8, 0]}, "wall": {"albedo": [1, 1, 1]}},
+        "lights": {"bulb": {"intensity": [2, 2, 2], "point": {}}},
+        "background": [0.4, 0.4, 0.4], "environment": {"file": "x.hdr"}})");
+    const json patch = dimming(document).patch;
+    EXPECT_EQ(patch["materials"]["lamp"]["emission"], json({1, 2, 0}));
+    EXPECT_FALSE(patch["materials"].contains("wall"));
+    EXPECT_EQ(patch["lights"]["bulb"]["intensity"], json({0.5, 0.5, 0.5}));
+    EXPECT_EQ(patch["background"], json({0.1, 0.1, 0.1}));
+    EXPECT_EQ(patch["environment"]["scale"], json({0.25, 0.25, 0.25}));
+    EXPECT_TRUE(dimming(json()).patch.is_null());
+    EXPECT_TRUE(dimming(json::parse(R"({"objects": []})")).patch.is_null());
+}
+
+TEST(EffectCosts, PatchesTakeAnEffectOut)
+{
+    const json document = json::parse(R"({"fog": {"name": "haze"},
+        "materials": {"a": {"normal_texture": "n.png"}, "b": {}}})");
+    EXPECT_EQ(removal_of("fog", document), json::parse(R"({"fog": null})"));
+    EXPECT_EQ(removal_of("normal_maps", document),
+        json::parse(R"({"materials": {"a": {"normal_texture": null}}})"));
+    EXPECT_TRUE(removal_of("clearcoat", document).is_null());
+    EXPECT_TRUE(removal_of("triangles", document).is_null());
+    EXPECT_TRUE(removal_of("fog", json()).is_null());
+}
+
+TEST(EffectCosts, NoiseIsVarianceRelativeToTheMean)
+{
+    EXPECT_NEAR(relative_noise({{1, 1, 1}, {3, 1, 1}}), (2 / 4.01) / 3, 1e-7);
+}
+
+TEST(FrameTimes, AreKeptThroughTheJournal)
+{
+    protocol::FrameHeader header;
+    header.passes = {{"gbuffer", 1.5F}, {"path_trace", 2.5F}};
+    header.encode_us = 500;
+    FrameTimes times;
+    times.add(header);
+    header.frame_us = 4100;
+    times.add(header);
+    const FrameTimes again = frame_times_of(to_json(times));
+    EXPECT_THAT(again.passes_sum, ElementsAre(4, 4));
+    EXPECT_THAT(again.whole, ElementsAre(testing::DoubleEq(4.1)));  // 0 means: not told
+    EXPECT_EQ(summary_of(again)["passes"][1]["name"], "path_trace");
+    EXPECT_EQ(summary_of(again)["ms"]["value"], 4.0);
+    EXPECT_DOUBLE_EQ(summary_of(again)["encode_ms"].get<double>(), 0.5);
+}
+
+TEST(Duration, IsReadable)
+{
+    EXPECT_EQ(duration_text(59.4), "59 s");
+    EXPECT_EQ(duration_text(80), "1 min 20 s");
+    EXPECT_EQ(duration_text(7260), "2 h 1 min");
+}
+
+}  // namespace
+}  // namespace farlight
