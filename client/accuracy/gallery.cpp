@@ -58,9 +58,9 @@ std::string shown(std::span<const float> linear, ImageSize size)
 
 std::string bar(Palette palette)
 {
-    std::vector<float> shares;
-    for (int i = 0; i < kBarPixels; ++i)
-        shares.push_back(static_cast<float>(i) / (kBarPixels - 1));
+    std::vector<float> shares(kBarPixels);
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        shares[i] = static_cast<float>(i) / (kBarPixels - 1);
     return png_data_uri(colored(shares, palette), {kBarPixels, 1});
 }
 

@@ -23,6 +23,12 @@ std::string duration_text(double seconds)
     return std::to_string(whole / 3600) + " h " + std::to_string(whole / 60 % 60) + " min";
 }
 
+std::atomic<bool>& Progress::stop_flag()
+{
+    static std::atomic<bool> flag = false;
+    return flag;
+}
+
 Progress::~Progress()
 {
     if (bar_ && !phase_.empty())
@@ -42,7 +48,7 @@ void Progress::done(double units)
 {
     done_ += units;
     show();
-    if (stop_)
+    if (stop_wished())
         throw Interrupted();
 }
 

@@ -31,14 +31,14 @@ public:
     void done(double units);
 
     /// Takes note of a wish to stop; for signal handlers.
-    static void wish_to_stop() { stop_ = true; }
-    static bool stop_wished() { return stop_; }
+    static void wish_to_stop() { stop_flag() = true; }
+    static bool stop_wished() { return stop_flag(); }
 
 private:
+    static std::atomic<bool>& stop_flag();
     void show();
 
     using Clock = std::chrono::steady_clock;
-    static inline std::atomic<bool> stop_ = false;
     bool bar_;
     std::string phase_;
     double planned_ = 0;

@@ -67,6 +67,7 @@ ReferencePicture reference_of(const std::vector<Picture>& batches)
 {
     assert(batches.size() >= 2);
     std::vector<std::span<const float>> runs;
+    runs.reserve(batches.size());
     for (const Picture& batch : batches)
         runs.emplace_back(batch.linear);
     ReferencePicture reference{.size = {batches.front().width, batches.front().height},
