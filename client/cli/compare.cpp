@@ -158,6 +158,19 @@ bool keeps(const CompareReport& report, const Bound& bound)
     return kept;
 }
 
+/// For --help.
+std::string metric_lines()
+{
+    std::string text = "Metrics:\n";
+    for (const Metric& metric : kMetrics) {
+        std::string name(metric.name);
+        name.resize(12, ' ');
+        text += "  " + name + std::string(metric.formula) + ": " + std::string(metric.meaning)
+            + (metric.better == Better::kHigher ? "; higher is better\n" : "\n");
+    }
+    return text + "lag, ghost, bias and variance are of scripted-camera tests, see SCRIPT.md.";
+}
+
 int run(const Options& options)
 {
     const std::vector<Bound> bounds = bounds_of(options);
@@ -208,6 +221,7 @@ Command add_compare(CLI::App& farlight)
            "--min", options->at_least, "METRIC=VALUE: exit status 1 where a file is below it")
         ->allow_extra_args(false);
     app->add_flag("--json", options->json, "print all as JSON");
+    app->footer(metric_lines());
     return {app, [options, exposure, tonemap] {
                 options->display_chosen = exposure->count() + tonemap->count() > 0;
                 if (!options->mask_file.empty())
