@@ -17,7 +17,7 @@ namespace farlight::protocol {
 
 constexpr std::array<char, 4> kFrameMagic{'F', 'A', 'R', 'L'};
 constexpr std::uint8_t kFrameVersion = 1;
-constexpr std::uint16_t kFrameHeaderSize = 120;  ///< [bytes] of the fixed part this version writes.
+constexpr std::uint16_t kFrameHeaderSize = 128;  ///< [bytes] of the fixed part this version writes.
 /// The fixed part that every v1 header has; fields beyond a header's end keep their defaults.
 constexpr std::uint16_t kSmallestFrameHeaderSize = 80;
 constexpr std::size_t kMaxPasses = 256;
@@ -57,8 +57,7 @@ struct FrameHeader {
     std::uint16_t full_width = 0;  ///< [px] the payload is to be shown at.
     std::uint16_t full_height = 0;
     std::uint32_t accumulated_samples = 0;
-    float predicted_error =
-        kNotEstimated;  ///< relMSE, from the noise that the filter lets through.
+    float predicted_error = kNotEstimated;  ///< relMSE, from the frames' own samples.
     std::uint32_t wait_us = 0;
     std::uint32_t trace_us = 0;
     std::uint32_t denoise_us = 0;
@@ -76,6 +75,7 @@ struct FrameHeader {
     float raw_error = kNotEstimated;  ///< relMSE of this frame's own samples without any filter.
     std::uint32_t frame_us = 0;  ///< Whole frame on the device, what passes leave out included.
     std::uint16_t samples_per_pixel = 0;  ///< In effect.
+    float noise_error = kNotEstimated;  ///< The part of predicted_error that is noise.
     std::uint16_t rung = 0;  ///< 1-based point of the newest `frontier` that drew it; 0: none.
 
     std::vector<PassEntry> passes;  ///< In execution order.
@@ -116,6 +116,7 @@ struct FrameHeader {
         visit(112, "frame_us", h.frame_us);
         visit(116, "samples_per_pixel", h.samples_per_pixel);
         visit(118, "rung", h.rung);
+        visit(120, "noise_error", h.noise_error);
     }
 };
 

@@ -28,7 +28,7 @@ export const HEADER_FIELDS = [
     [72, "u64", "framebuffer_hash"], [80, "f32", "predicted_lower"], [84, "f32", "predicted_upper"],
     [88, "f32", "measured_error"], [92, "f32", "measured_lower"], [96, "f32", "measured_upper"],
     [100, "u32", "reference_samples"], [104, "f32", "effective_samples"], [108, "f32", "raw_error"],
-    [112, "u32", "frame_us"], [116, "u16", "samples_per_pixel"], [118, "u16", "rung"],
+    [112, "u32", "frame_us"], [116, "u16", "samples_per_pixel"], [118, "u16", "rung"], [120, "f32", "noise_error"],
 ];
 const SMALLEST_HEADER = 80;
 const MOST_PASSES = 256;

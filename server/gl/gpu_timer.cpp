@@ -12,6 +12,20 @@ void GpuTimer::begin_frame()
 {
     passes_.clear();
     used_queries_ = 0;
+    frame_ms_ = 0;
+}
+
+void GpuTimer::end_frame()
+{
+    if (passes_.empty())
+        return;
+    if (host_clock_) {
+        const std::chrono::duration<double, std::milli> spent =
+            std::chrono::steady_clock::now() - frame_started_;
+        frame_ms_ = spent.count();
+    } else {
+        glQueryCounter(next_query(), GL_TIMESTAMP);
+    }
 }
 
 GLuint GpuTimer::next_query()
@@ -29,6 +43,8 @@ void GpuTimer::begin(const std::string& name)
     if (host_clock_) {
         glFinish();
         started_ = std::chrono::steady_clock::now();
+        if (passes_.size() == 1)
+            frame_started_ = started_;
     } else {
         glQueryCounter(next_query(), GL_TIMESTAMP);
     }
@@ -56,6 +72,17 @@ std::vector<TimedPass> GpuTimer::collect()
         passes_[i].milliseconds = static_cast<double>(after - before) * 1e-6;
     }
     return passes_;
+}
+
+double GpuTimer::whole_frame()
+{
+    if (host_clock_ || passes_.empty())
+        return frame_ms_;
+    GLuint64 before = 0;
+    GLuint64 after = 0;
+    glGetQueryObjectui64v(queries_.front(), GL_QUERY_RESULT, &before);
+    glGetQueryObjectui64v(queries_[2 * passes_.size()], GL_QUERY_RESULT, &after);
+    return static_cast<double>(after - before) * 1e-6;
 }
 
 }  // namespace farlight

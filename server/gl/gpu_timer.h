@@ -28,17 +28,22 @@ public:
     void begin_frame();
     void begin(const std::string& name);
     void end();
+    void end_frame();
     /// Times of the last frame, in order. Waits for the queries: call it when the frame is known to
     /// be done.
     std::vector<TimedPass> collect();
+    /// From the first pass's begin() to end_frame() [ms], likewise; 0 of a frame without passes.
+    double whole_frame();
 
 private:
     GLuint next_query();
 
     bool host_clock_;
     std::chrono::steady_clock::time_point started_;
+    std::chrono::steady_clock::time_point frame_started_;
+    double frame_ms_ = 0;  ///< By the host clock.
     std::vector<TimedPass> passes_;
-    std::vector<GLuint> queries_;  ///< Two a pass: before and after.
+    std::vector<GLuint> queries_;  ///< Two a pass, before and after, and one after them all.
     std::size_t used_queries_ = 0;
 };
 

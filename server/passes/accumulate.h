@@ -6,16 +6,41 @@
 
 namespace farlight {
 
+/// Contents: shaders/accumulate/accumulate.comp.
+struct Mean {
+    TextureHandle radiance;
+    TextureHandle prev_reference;  ///< Mean of older samples, as last frame had it.
+    TextureHandle reference;  ///< The one to be had next frame.
+};
+
+/// What becomes of the older mean that a denoised picture is measured against.
+enum class Reference : std::uint8_t {
+    kAbsent,  ///< Nobody measures.
+    kKeep,
+    kTake,  ///< This frame's mean is the next frames' reference.
+};
+
 /// `frame_count`: frames in the mean including this one.
-inline TextureHandle add_accumulate(FrameGraph& graph, TextureHandle raw, int frame_count)
+inline Mean add_accumulate(
+    FrameGraph& graph, TextureHandle raw, int frame_count, Reference reference)
 {
     const History mean = graph.history("accumulate.mean", GL_RGBA32F);
-    graph.add_pass("accumulate", "accumulate/accumulate.comp")
-        .read("in_radiance", raw)
-        .read("prev_mean", mean.previous)
-        .write("out_mean", mean.current)
-        .constant("frame_count", mean.valid ? frame_count : 1);
-    return mean.current;
+    const History variance = graph.history("accumulate.variance", GL_RGBA32F);
+    Pass& pass = graph.add_pass("accumulate", "accumulate/accumulate.comp")
+                     .read("in_radiance", raw)
+                     .read("prev_mean", mean.previous)
+                     .read("prev_variance", variance.previous)
+                     .write("out_mean", mean.current)
+                     .write("out_variance", variance.current)
+                     .constant("frame_count", mean.valid && variance.valid ? frame_count : 1);
+    if (reference == Reference::kAbsent)
+        return {mean.current, {}, {}};
+    const History older = graph.history("accumulate.reference", GL_RGBA32F);
+    pass.define({{"WITH_REFERENCE", "1"}})
+        .read("prev_reference", older.previous)
+        .write("out_reference", older.current)
+        .constant("takes_reference", reference == Reference::kTake ? 1 : 0);
+    return {mean.current, older.previous, older.current};
 }
 
 inline TextureHandle add_refine(

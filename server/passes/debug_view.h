@@ -10,7 +10,7 @@ struct FrameBuffers {
     GBuffer gbuffer;
     Signals noisy;
     TextureHandle raw;  ///< Undenoised picture.
-    Signals blended;  ///< SVGF: alpha is the variance estimate.
+    Signals blended;  ///< SVGF: alpha holds the variance estimate.
     TextureHandle history_length;
 };
 

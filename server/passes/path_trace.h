@@ -10,8 +10,8 @@
 
 namespace farlight {
 
-/// Light at the first surface (rgba32f; alpha is the variance after a filter, see the shaders
-/// before one).
+/// Light at the first surface (rgba32f; after a filter alpha is its noise, shaders/svgf/noise.glsl;
+/// before one see the shaders).
 struct Signals {
     TextureHandle direct;  ///< Diffuse, without the surface's albedo.
     TextureHandle indirect;  ///< Likewise.

@@ -11,7 +11,7 @@ namespace farlight {
 /// What the filter leaves behind, for the composite and for people who look inside.
 struct SvgfOutput {
     Signals filtered;
-    Signals blended;  ///< Before the wavelet filter; alpha is the variance estimate.
+    Signals blended;  ///< Before the wavelet filter; alpha holds the variance estimate.
     TextureHandle history_length;  ///< Of diffuse light.
 };
 
@@ -118,6 +118,8 @@ private:
         }
         if (is(specular_kind()))
             pass.read("in_reflectance", gbuffer_.reflectance);
+        if (settings_.error_estimate)
+            pass.define({{"ERROR_ESTIMATE", "1"}});
         return pass;
     }
 

@@ -46,6 +46,8 @@ shared::CameraConstants camera_constants(const CameraPose& pose, Extent extent)
     constants.position = glm::vec3(pose.position);
     constants.pixel_footprint = static_cast<float>(2 * half_height / extent.height);
     constants.forward = glm::vec3(basis.forward);
+    constants.width = static_cast<float>(extent.width);
+    constants.height = static_cast<float>(extent.height);
     constants.right = glm::vec3(half_width * basis.right);
     constants.up = glm::vec3(half_height * basis.up);
     return constants;

@@ -4,6 +4,7 @@
 #include "server/passes/accumulate.h"
 #include "server/passes/composite.h"
 #include "server/passes/debug_view.h"
+#include "server/passes/error_estimate.h"
 #include "server/passes/gbuffer.h"
 #include "server/passes/path_trace.h"
 #include "server/passes/svgf.h"
@@ -34,6 +35,8 @@ bool is_lit(const FramePlan& plan)
     return plan.scatters && plan.settings.max_depth > 1;
 }
 
+}  // namespace
+
 bool is_denoised(const FramePlan& plan)
 {
     return plan.settings.denoiser == Denoiser::kSvgf && is_lit(plan);
@@ -44,7 +47,13 @@ bool is_averaged(const FramePlan& plan)
     return plan.settings.denoiser == Denoiser::kAccumulate || plan.refine;
 }
 
-}  // namespace
+double mean_weight(const FramePlan& plan)
+{
+    if (!is_averaged(plan))
+        return 0;
+    const double samples = static_cast<double>(plan.mean_frames) * plan.settings.samples_per_pixel;
+    return is_denoised(plan) ? samples / (samples + plan.settings.refine_crossover) : 1;
+}
 
 std::vector<ActiveEffect> effects_by_settings(const FramePlan& plan)
 {
@@ -79,13 +88,17 @@ TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const Fr
         buffers.blended = svgf.blended;
         buffers.history_length = svgf.history_length;
         radiance = add_composite(graph, "composite", inputs, buffers.gbuffer, svgf.filtered);
+        if (settings.error_estimate)
+            add_predict(graph, inputs, buffers.gbuffer, buffers.noisy, svgf.filtered,
+                {radiance, plan.frame_index});
     }
     if (averages) {
-        const TextureHandle mean = add_accumulate(graph, buffers.raw, plan.mean_frames);
-        const auto samples = static_cast<float>(plan.mean_frames * settings.samples_per_pixel);
-        const float mean_weight =
-            samples / (samples + static_cast<float>(settings.refine_crossover));
-        radiance = denoises ? add_refine(graph, radiance, mean, mean_weight) : mean;
+        const Mean mean = add_accumulate(graph, buffers.raw, plan.mean_frames, plan.reference);
+        if (plan.measures)
+            add_measure(graph, mean, plan.measures_reference ? radiance : TextureHandle{});
+        radiance = denoises
+            ? add_refine(graph, radiance, mean.radiance, static_cast<float>(mean_weight(plan)))
+            : mean.radiance;
     }
 
     if (const auto debug = add_debug_view(graph, buffers, plan))

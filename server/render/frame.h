@@ -1,6 +1,7 @@
 // One frame as a list of passes. Read frame.cpp first: it is the renderer at a glance.
 #pragma once
 
+#include "server/passes/accumulate.h"
 #include "server/passes/frame_inputs.h"
 #include "server/render/settings.h"
 
@@ -12,7 +13,12 @@ namespace farlight {
 struct FramePlan {
     RenderSettings settings;
     int mean_frames = 1;  ///< Frames in the running mean with this one.
+    std::uint32_t frame_index = 0;  ///< Frames since the cut.
     bool refine = false;
+    Reference reference = Reference::kAbsent;
+    bool measures = false;  ///< Sum up what is known of the mean's error and, against the
+                            ///< reference, of the denoised picture's.
+    bool measures_reference = false;  ///< There is one.
     float scene_radius = 1;  ///< [m], scales debug views.
     bool scatters = true;  ///< Something in the scene is lit and can show it.
     bool linear_output =
@@ -21,6 +27,13 @@ struct FramePlan {
 
 /// Effects that the frame's settings call for, whatever the scene is.
 std::vector<ActiveEffect> effects_by_settings(const FramePlan& plan);
+
+/// Whether a filter stands between samples and picture.
+bool is_denoised(const FramePlan& plan);
+
+/// Whether a running mean of the raw pictures is kept, and how much of it the picture shows.
+bool is_averaged(const FramePlan& plan);
+double mean_weight(const FramePlan& plan);
 
 /// Declares the whole frame; returns the texture to read back, rgba8 or rgba32f.
 TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan);

@@ -35,7 +35,6 @@ void FrameGraph::begin_frame(Extent extent, std::vector<BlockInput> blocks)
         if (resource.kept && resource.transient && resource.texture != nullptr)
             pool_.push_back({std::move(resource.texture)});
     if (extent != extent_) {  // after the last frame's have come back, or they would be used again
-        histories_.clear();
         pool_.clear();
         extent_ = extent;
     }
@@ -112,9 +111,14 @@ void FrameGraph::allocate_histories()
     for (auto& [name, pair] : histories_) {
         if (pair.resource_current < 0)
             continue;
-        for (auto& texture : pair.textures)
-            if (texture == nullptr)
+        for (int age = 0; age < 2; ++age) {
+            std::shared_ptr<GpuTexture>& texture = pair.textures[age];
+            const bool fits = texture != nullptr
+                && (texture->extent() == extent_
+                    || (age != pair.current && pair.written_last_frame));
+            if (!fits)
                 texture = std::make_shared<GpuTexture>(name, pair.format, extent_);
+        }
         resources_[static_cast<std::size_t>(pair.resource_current)].texture =
             pair.textures[pair.current];
         resources_[static_cast<std::size_t>(pair.resource_previous)].texture =
@@ -129,6 +133,7 @@ void FrameGraph::execute()
     barriers_ = 0;
     for (std::size_t i = 0; i < passes_.size(); ++i)
         run(passes_[i], static_cast<int>(i));
+    timer_.end_frame();
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT
         | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT
         | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
@@ -282,8 +287,9 @@ std::vector<TextureAllocation> FrameGraph::allocations() const
     const auto add = [&](const std::string& name, const std::shared_ptr<GpuTexture>& texture) {
         if (texture != nullptr)
             held.push_back({name,
-                bytes_per_texel(texture->format()) * static_cast<std::size_t>(extent_.width)
-                    * static_cast<std::size_t>(extent_.height)});
+                bytes_per_texel(texture->format())
+                    * static_cast<std::size_t>(texture->extent().width)
+                    * static_cast<std::size_t>(texture->extent().height)});
     };
     for (const Spare& spare : pool_)
         add("scratch", spare.texture);

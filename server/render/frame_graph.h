@@ -23,9 +23,10 @@
 namespace farlight {
 
 struct History {
-    TextureHandle previous;  ///< Last frame's `current`; anything when not `valid`.
+    TextureHandle previous;  ///< Last frame's `current`, at that frame's size; anything when not
+                             ///< `valid`.
     TextureHandle current;  ///< To be written this frame.
-    bool valid = false;  ///< Last frame wrote it, at this size.
+    bool valid = false;  ///< Last frame wrote it.
 };
 
 /// A texture that a graph holds.
@@ -43,8 +44,9 @@ public:
     /// `strict`: see DeclarationCheck.
     FrameGraph(ProgramCache& programs, bool software, bool strict);
 
-    /// Starts declaring a frame. A changed extent drops every texture and so every history; what
-    /// kIdleFrames frames had no use for is dropped too.
+    /// Starts declaring a frame. With another extent than the last one, histories stay as they are:
+    /// who reads them knows their size, or calls forget_histories(). What kIdleFrames frames had no
+    /// use for is dropped.
     void begin_frame(Extent extent, std::vector<BlockInput> blocks);
     Extent extent() const { return extent_; }
 
@@ -68,6 +70,8 @@ public:
     /// The texture behind a handle, after execute(), if it was kept or is a history.
     const GpuTexture& texture(TextureHandle handle) const;
     std::vector<TimedPass> collect_times() { return timer_.collect(); }
+    /// What lies between the passes included [ms].
+    double frame_time() { return timer_.whole_frame(); }
     /// What the passes of the last executed frame wrote, in the order of declaration, if it was
     /// kept.
     std::vector<std::pair<std::string, const GpuTexture*>> written() const;

@@ -17,6 +17,7 @@ std::string too_much_work(const RenderRequest& request)
 {
     const RenderSettings& s = request.settings;
     const double segments = static_cast<double>(request.extent.width) * request.extent.height
+        * static_cast<double>(s.resolution_scale) * static_cast<double>(s.resolution_scale)
         * s.samples_per_pixel * s.max_depth;
     if (segments <= kMostSegments)
         return {};

@@ -23,6 +23,7 @@ struct Image {
     Extent extent;
     PixelFormat format = PixelFormat::kRgb8;
     std::vector<std::byte> bytes;  ///< width * height * bytes_per_pixel(format).
+    Extent full_extent;  ///< It is to be shown at.
 };
 
 }  // namespace farlight

@@ -79,6 +79,8 @@ void LiveScene::prepare_programs(const RenderSettings& settings)
     moving.scatters = shared_.look.scatters;
     FramePlan resting = moving;
     resting.refine = true;
+    resting.measures = resting.measures_reference = true;
+    resting.reference = Reference::kKeep;
     const auto declared = [](const FramePlan& plan) -> DeclareFrame {
         return [plan](FrameGraph& graph, const SceneInputs& inputs) {
             build_frame(graph, FrameInputs{inputs, {}}, plan);

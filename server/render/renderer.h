@@ -5,6 +5,7 @@
 // costs nothing.
 #pragma once
 
+#include "server/render/error_estimate.h"
 #include "server/render/image.h"
 #include "server/render/settings.h"
 #include "server/scene/scene.h"
@@ -46,6 +47,8 @@ struct RenderedFrame {
     std::vector<PassTime> pass_times;
     double trace_ms = 0;  ///< Sum of the passes up to and including path_trace, and of posing.
     double denoise_ms = 0;  ///< Sum of the passes after it.
+    double frame_ms = 0;  ///< All of them with what lies between them.
+    FrameErrors errors;
     std::uint32_t accumulated_samples =
         0;  ///< Samples a pixel since the camera or a setting last changed.
     std::uint32_t nonfinite_count =

@@ -268,7 +268,10 @@ void rehearse(
         std::as_bytes(std::span<const shared::FrameConstants, 1>(&nobody_is_inside, 1)));
     const Buffer counters("rehearsal counters", {});
     FrameGraph graph(programs, software, /*strict=*/false);
-    graph.begin_frame(kSmall, {{"frame_block", constants.id()}, {"counter_block", counters.id()}});
+    const Buffer tiles("rehearsed tile sums", {});
+    graph.begin_frame(kSmall,
+        {{"frame_block", constants.id()}, {"counter_block", counters.id()},
+            {"tile_block", tiles.id()}});
     declare(graph, inputs);
     graph.execute();
     glFinish();

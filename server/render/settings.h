@@ -88,8 +88,12 @@ struct RenderSettings {
 
     EffectChoice effects;
 
+    bool error_estimate = true;
+
     int still_samples = 256;
     int refine_crossover = 64;
+
+    float resolution_scale = 1;
 
     float exposure = 1;
     Tonemap tonemap = Tonemap::kAces;
@@ -146,11 +150,15 @@ struct RenderSettings {
         visit(s.effects, "effects", TextRule{},
             "effects compiled in: auto (what the scene calls for), general (all), or a list of "
             "names with commas; less than the scene calls for is refused");
+        visit(s.error_estimate, "error_estimate", IntRange{0, 1},
+            "estimate the picture's relMSE: predicted while it moves, measured when it rests");
         visit(s.still_samples, "still_samples", IntRange{1, 65536},
             "samples a pixel after which a resting picture is final and sent lossless");
         visit(s.refine_crossover, "refine_crossover", IntRange{1, 65536},
             "samples at which a plain mean equals the denoiser; sets how fast a resting picture "
             "turns to the mean");
+        visit(s.resolution_scale, "resolution_scale", RealRange{0.25, 1},
+            "of width and height that are drawn; clients show the picture at its full size");
         visit(s.exposure, "exposure", RealRange{0, 1e6}, "linear scale before tone mapping");
         visit(s.tonemap, "tonemap", kTonemapNames, "curve from scene-linear to display");
         visit(s.view, "view", kDebugViewNames, "the finished picture or a buffer behind it");

@@ -1,10 +1,13 @@
 // Counting frames, filling the constants, running the graph, collecting the result.
 #include "server/render/view.h"
 
+#include "server/passes/error_estimate.h"
 #include "server/render/camera.h"
 #include "server/render/frame.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace farlight {
 namespace {
@@ -14,6 +17,8 @@ template <typename T> std::span<const std::byte> object_bytes(const T& object)
     return std::as_bytes(std::span<const T, 1>(&object, 1));
 }
 
+constexpr int kPlainStretch = 8;
+
 /// The digits of n in base `base` mirrored at the point, in [0, 1).
 /// Source: Halton 1960, "On the efficiency of certain quasi-random sequences of points".
 float radical_inverse(int n, int base)
@@ -22,6 +27,17 @@ float radical_inverse(int n, int base)
     for (double digit = 1.0 / base; n > 0; n /= base, digit /= base)
         value += digit * (n % base);
     return static_cast<float>(value);
+}
+
+/// Frames between two measurements of a resting picture: those within which the denoiser forgets,
+/// a mirror's light last (svgf/temporal.comp).
+int stretch_of(const FramePlan& plan, bool specular)
+{
+    if (!is_denoised(plan))
+        return kPlainStretch;
+    const RenderSettings& s = plan.settings;
+    const double alpha = (specular ? 0.25 : 1) * static_cast<double>(s.svgf_alpha);
+    return frames_to_forget(std::max(alpha, 1.0 / s.history_max));
 }
 
 /// Where in its pixel frame `index` of a mean looks [px from the middle]: first the middle itself,
@@ -41,11 +57,22 @@ EffectMask effects_of(const FramePlan& plan)
     return mask_of(compiled);
 }
 
+Extent scaled_extent(Extent full, float scale)
+{
+    const auto scaled = [&](int length) {
+        return std::max(
+            static_cast<int>(std::lround(static_cast<double>(scale) * static_cast<double>(length))),
+            1);
+    };
+    return {scaled(full.width), scaled(full.height)};
+}
+
 View::View(const SharedScene& scene)
     : scene_(scene)
     , graph_(scene.programs, scene.software, scene.strict)
     , constants_("frame constants", object_bytes(shared::FrameConstants{}))
     , counters_("counters", object_bytes(std::uint32_t{0}))
+    , tiles_("tile sums", {})
 {
     if (scene.keep_all)
         graph_.keep_all();
@@ -55,11 +82,13 @@ View::View(const SharedScene& scene)
 void View::follow(const RenderRequest& request)
 {
     const RenderSettings& s = request.settings;
-    const SampleKey key{request.camera, request.extent, s.samples_per_pixel, s.max_depth,
-        s.roulette_depth, s.light_sampling, s.antialiasing, s.seed, scene_.version,
-        moment_shown(request.time)};
-    if (request.reset_history || request.extent != key_.extent)
+    const Extent drawn = scaled_extent(request.extent, s.resolution_scale);
+    const SampleKey key{request.camera, drawn, s.samples_per_pixel, s.max_depth, s.roulette_depth,
+        s.light_sampling, s.antialiasing, s.seed, scene_.version, moment_shown(request.time)};
+    if (request.reset_history || request.extent != full_extent_)
         has_history_ = false;
+    full_extent_ = request.extent;
+    frame_index_ = has_history_ ? frame_index_ + 1 : 0;
     if (!has_history_)
         samples_ = 0;
     const bool same = has_history_ && key == key_;
@@ -85,15 +114,16 @@ double View::pose(double time)
 void View::upload_constants(const RenderRequest& request)
 {
     shared::FrameConstants constants{};
-    constants.camera = camera_constants(request.camera, request.extent);
-    constants.prev_camera =
-        has_history_ ? camera_constants(prev_camera_, request.extent) : constants.camera;
+    constants.camera = camera_constants(request.camera, key_.extent);
+    constants.prev_camera = has_history_ ? prev_camera_ : constants.camera;
+    prev_camera_ = constants.camera;
     constants.background = scene_.look.background;
     if (moves())
         constants.background *= scene_.gpu->background_factor();
     constants.light_count = scene_.light_count;
     constants.first_sample = samples_;
-    constants.extent = {request.extent.width, request.extent.height};
+    constants.extent = {key_.extent.width, key_.extent.height};
+    constants.frame_index = frame_index_;
     constants.seed = request.settings.seed;
     constants_.update(object_bytes(constants));
     counters_.update(object_bytes(std::uint32_t{0}));
@@ -115,6 +145,57 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
     return inputs;
 }
 
+/// What the frame consists of, and whether it measures its error. At the end of every stretch of
+/// frames that the denoiser forgets within, its picture is compared with the mean as it was when
+/// the stretch began.
+FramePlan View::plan_of(const RenderRequest& request)
+{
+    FramePlan plan;
+    plan.settings = request.settings;
+    plan.mean_frames = std::max(mean_frames_, 1);
+    plan.frame_index = frame_index_;
+    plan.refine = request.refine;
+    plan.scene_radius = scene_.look.radius;
+    plan.scatters = scene_.look.scatters;
+    plan.linear_output = request.format == PixelFormat::kRgb32f;
+    if (mean_frames_ <= 1)
+        reference_frames_ = 0;
+    measured_against_ = 0;
+    if (!request.settings.error_estimate || !is_averaged(plan))
+        return plan;
+    const bool specular = scene_.scene_programs.scene_mask().has("specular_signal");
+    const bool at_end = mean_frames_ % stretch_of(plan, specular) == 0;
+    plan.measures = at_end && mean_frames_ > 1;
+    if (is_denoised(plan)) {
+        plan.reference = at_end ? Reference::kTake : Reference::kKeep;
+        plan.measures_reference = plan.measures && reference_frames_ > 1;
+        measured_against_ = plan.measures_reference ? reference_frames_ : 0;
+        if (at_end)
+            reference_frames_ = mean_frames_;
+    }
+    return plan;
+}
+
+void View::make_room_for_tiles(Extent tiles)
+{
+    const std::size_t bytes = sizeof(glm::vec4) * kTileSumParts
+        * static_cast<std::size_t>(tiles.width) * static_cast<std::size_t>(tiles.height);
+    if (tiles_.size() < bytes)
+        tiles_ = Buffer("tile sums", std::vector<std::byte>(bytes));
+}
+
+/// Of the last frame, which must be done.
+std::vector<glm::vec4> View::tile_sums(TileSums part) const
+{
+    const Extent tiles = tiles_of(key_.extent);
+    std::vector<glm::vec4> sums(
+        static_cast<std::size_t>(tiles.width) * static_cast<std::size_t>(tiles.height));
+    glGetNamedBufferSubData(tiles_.id(),
+        static_cast<GLintptr>(sizeof(glm::vec4)) * tile_offset(part, key_.extent),
+        static_cast<GLsizeiptr>(sums.size() * sizeof(glm::vec4)), sums.data());
+    return sums;
+}
+
 void View::begin(const RenderRequest& request)
 {
     follow(request);
@@ -123,21 +204,18 @@ void View::begin(const RenderRequest& request)
     if (!has_history_)
         graph_.forget_histories();
 
-    FramePlan plan;
-    plan.settings = request.settings;
-    plan.mean_frames = std::max(mean_frames_, 1);
-    plan.refine = request.refine;
-    plan.scene_radius = scene_.look.radius;
-    plan.scatters = scene_.look.scatters;
-    plan.linear_output = request.format == PixelFormat::kRgb32f;
+    plan_ = plan_of(request);
+    const FramePlan& plan = plan_;
+    make_room_for_tiles(tiles_of(key_.extent));
     const FrameInputs values = inputs_of(request);
     const DeclareFrame declare = [plan, values](FrameGraph& graph, const SceneInputs& inputs) {
         build_frame(graph, values.with_scene(inputs), plan);
     };
     const Variant& variant =
         scene_.scene_programs.choose(plan.settings.effects, effects_of(plan), declare);
-    graph_.begin_frame(
-        request.extent, {{"frame_block", constants_.id()}, {"counter_block", counters_.id()}});
+    graph_.begin_frame(key_.extent,
+        {{"frame_block", constants_.id()}, {"counter_block", counters_.id()},
+            {"tile_block", tiles_.id()}});
     const TextureHandle result = build_frame(graph_, values.with_scene(variant.inputs), plan);
     graph_.keep(result);
     graph_.execute();
@@ -159,7 +237,6 @@ void View::begin(const RenderRequest& request)
         * static_cast<std::uint32_t>(request.settings.samples_per_pixel);
     frame_.converged =
         frame_.accumulated_samples >= static_cast<std::uint32_t>(request.settings.still_samples);
-    prev_camera_ = request.camera;
     has_history_ = true;
     samples_ += static_cast<std::uint32_t>(request.settings.samples_per_pixel);
 }
@@ -167,10 +244,23 @@ void View::begin(const RenderRequest& request)
 RenderedFrame View::finish()
 {
     frame_.image = readback_.finish();
+    frame_.image.full_extent = full_extent_;
     for (TextureAllocation& held : graph_.allocations())
         frame_.memory.emplace_back(std::move(held.name), held.bytes);
     glGetNamedBufferSubData(
         counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
+    const bool predicts = is_denoised(plan_) && plan_.settings.error_estimate;
+    frame_.errors = errors_.add({
+        .history_reset = frame_.history_reset,
+        .predicted = predicts ? tile_sums(TileSums::kPredicted) : std::vector<glm::vec4>{},
+        .measured = plan_.measures ? tile_sums(TileSums::kMeasured) : std::vector<glm::vec4>{},
+        .extent = key_.extent,
+        .samples_per_pixel = plan_.settings.samples_per_pixel,
+        .mean_frames = mean_frames_,
+        .mean_weight = mean_weight(plan_),
+        .reference_frames = measured_against_,
+    });
+    frame_.frame_ms = frame_.trace_ms + graph_.frame_time();
     for (const TimedPass& pass : graph_.collect_times()) {
         const bool traces = pass.name == "gbuffer" || pass.name.starts_with("path_trace");
         frame_.pass_times.push_back({pass.name, pass.milliseconds});

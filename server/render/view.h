@@ -4,11 +4,13 @@
 
 #include "server/gl/buffer.h"
 #include "server/gl/program_cache.h"
+#include "server/render/error_estimate.h"
 #include "server/render/frame.h"
 #include "server/render/readback.h"
 #include "server/render/renderer.h"
 #include "server/render/scene_look.h"
 #include "server/render/scene_programs.h"
+#include "shaders/shared/frame_constants.h"
 
 namespace farlight {
 
@@ -30,6 +32,9 @@ constexpr std::size_t kViewBytesPerPixel = 640;
 
 /// Effects that a frame calls for by itself, whatever the scene.
 EffectMask effects_of(const FramePlan& plan);
+
+/// What is drawn of a picture of `full` size: each side times `scale`, rounded, at least 1.
+Extent scaled_extent(Extent full, float scale);
 
 /// GL thread only.
 class View {
@@ -54,7 +59,7 @@ private:
     /// What the samples of a frame depend on: while it stays, samples may be averaged.
     struct SampleKey {
         CameraPose camera;
-        Extent extent;
+        Extent extent;  ///< Drawn, which resolution_scale may make smaller than what is asked for.
         int samples_per_pixel = 0;
         int max_depth = 0;
         int roulette_depth = 0;
@@ -74,6 +79,9 @@ private:
     double pose(double time);
     void upload_constants(const RenderRequest& request);
     FrameInputs inputs_of(const RenderRequest& request) const;
+    FramePlan plan_of(const RenderRequest& request);
+    void make_room_for_tiles(Extent tiles);
+    std::vector<glm::vec4> tile_sums(TileSums part) const;
 
     const SharedScene& scene_;
     FrameGraph graph_;
@@ -81,14 +89,21 @@ private:
     Buffer counters_;
     Readback readback_;
     SampleKey key_;
-    CameraPose prev_camera_;
+    Extent full_extent_;  ///< Of the last frame.
+    shared::CameraConstants prev_camera_{};
     double prev_time_ = 0;
     bool has_history_ = false;
     std::uint32_t samples_ =
         0;  ///< A pixel, since the cut: no number is used twice when samples_per_pixel changes.
+    std::uint32_t frame_index_ = 0;  ///< Frames since the cut.
     int still_frames_ = 0;  ///< Frames since the key last changed, with this one.
     int mean_frames_ = 0;  ///< Frames in the running mean, with this one; 0: it does not run.
+    int reference_frames_ = 0;  ///< Frames in the older mean to measure against; 0: there is none.
+    Buffer tiles_;  ///< What the error estimate sums up.
+    ErrorRecord errors_;
     RenderedFrame frame_;  ///< Of the frame in flight.
+    FramePlan plan_;  ///< Likewise.
+    int measured_against_ = 0;  ///< Likewise: reference_frames_ while it is drawn.
 };
 
 }  // namespace farlight

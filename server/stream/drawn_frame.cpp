@@ -14,6 +14,20 @@ std::uint32_t microseconds(double milliseconds)
     return static_cast<std::uint32_t>(std::clamp(milliseconds * 1000, 0.0, 4e9));
 }
 
+void put_errors(const FrameErrors& errors, protocol::FrameHeader& header)
+{
+    header.predicted_error = static_cast<float>(errors.predicted.value);
+    header.predicted_lower = static_cast<float>(errors.predicted.lower);
+    header.predicted_upper = static_cast<float>(errors.predicted.upper);
+    header.measured_error = static_cast<float>(errors.measured.value);
+    header.measured_lower = static_cast<float>(errors.measured.lower);
+    header.measured_upper = static_cast<float>(errors.measured.upper);
+    header.reference_samples = errors.reference_samples;
+    header.effective_samples = static_cast<float>(errors.effective_samples);
+    header.noise_error = static_cast<float>(errors.noise);
+    header.raw_error = static_cast<float>(errors.raw);
+}
+
 }  // namespace
 
 EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
@@ -43,6 +57,9 @@ EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
             microseconds(std::chrono::duration<double, std::milli>(begun - *draw.asked).count());
     header.trace_us = microseconds(frame.trace_ms);
     header.denoise_us = microseconds(frame.denoise_ms);
+    header.frame_us = microseconds(frame.frame_ms);
+    header.samples_per_pixel = static_cast<std::uint16_t>(draw.request.settings.samples_per_pixel);
+    put_errors(frame.errors, header);
     for (const PassTime& time : frame.pass_times)
         if (header.passes.size() < protocol::kMaxPasses)
             header.passes.push_back({time.pass, static_cast<float>(time.milliseconds)});

@@ -45,8 +45,10 @@ EncodedFrame encode_frame(const EncodeTask& task)
         encoded.error = problem.what();
     }
     protocol::FrameHeader& header = encoded.header;
-    header.width = header.full_width = static_cast<std::uint16_t>(image.extent.width);
-    header.height = header.full_height = static_cast<std::uint16_t>(image.extent.height);
+    header.width = static_cast<std::uint16_t>(image.extent.width);
+    header.height = static_cast<std::uint16_t>(image.extent.height);
+    header.full_width = static_cast<std::uint16_t>(image.full_extent.width);
+    header.full_height = static_cast<std::uint16_t>(image.full_extent.height);
     header.framebuffer_hash = XXH64(image.bytes.data(), image.bytes.size(), 0);
     header.payload_size = static_cast<std::uint32_t>(encoded.payload.size());
     header.encode_us =

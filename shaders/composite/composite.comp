@@ -1,13 +1,10 @@
-// Puts the picture together, the exact inverse of the split into signals:
-// transmittance of the fog * (albedo * (direct + indirect) + reflectance * specular + emission) + scattered.
+// Puts the picture together.
 //
-//   in   in_direct, in_indirect, in_specular  rgba32f  demodulated radiance
-//        in_scattered                         rgba32f  radiance
-//        in_albedo, in_reflectance, in_emission, in_fog_way  G-buffer
-//   LIT: there are signals; without, emission is all that is seen.
-//   out  out_radiance                         rgba32f  scene-linear radiance
+//   in   in_direct, in_indirect, in_specular, in_scattered  rgba32f  light by signal
+//        in_emission, and the G-buffer textures of composite/compose.glsl
+//   out  out_radiance                                       rgba32f  scene-linear radiance
 #version 450
-#include "lib/frame.glsl"
+#include "composite/compose.glsl"
 #include "lib/counters.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -16,18 +13,12 @@ uniform sampler2D in_emission;
 #ifdef LIT
 uniform sampler2D in_direct;
 uniform sampler2D in_indirect;
-uniform sampler2D in_albedo;
 #ifdef FX_FOG
 uniform sampler2D in_scattered;
 #endif
 #endif
 #ifdef FX_SPECULAR_SIGNAL
 uniform sampler2D in_specular;
-uniform sampler2D in_reflectance;
-#endif
-#ifdef FX_FOG
-uniform sampler2D in_fog_way;
-uniform vec3 fog_sigma_t;
 #endif
 uniform writeonly image2D out_radiance;
 
@@ -36,22 +27,16 @@ void main()
     const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
     if (!inside_frame(px))
         return;
-    precise vec3 radiance = texelFetch(in_emission, px, 0).rgb;
+    Signals light = Signals(vec3(0.0), vec3(0.0), vec3(0.0));
 #ifdef LIT
-    precise const vec3 light = texelFetch(in_direct, px, 0).rgb + texelFetch(in_indirect, px, 0).rgb;
-    radiance += texelFetch(in_albedo, px, 0).rgb * light;
+    light.diffuse = texelFetch(in_direct, px, 0).rgb + texelFetch(in_indirect, px, 0).rgb;
+#ifdef FX_FOG
+    light.scattered = texelFetch(in_scattered, px, 0).rgb;
+#endif
 #endif
 #ifdef FX_SPECULAR_SIGNAL
-    const vec4 reflectance = texelFetch(in_reflectance, px, 0);
-    if (reflectance.a >= 0.0)
-        radiance += reflectance.rgb * texelFetch(in_specular, px, 0).rgb;
+    light.specular = texelFetch(in_specular, px, 0).rgb;
 #endif
-#ifdef FX_FOG
-    if (max_component(fog_sigma_t) > 0.0)
-        radiance *= exp(-fog_sigma_t * texelFetch(in_fog_way, px, 0).x);
-#ifdef LIT
-    radiance += texelFetch(in_scattered, px, 0).rgb;
-#endif
-#endif
+    const vec3 radiance = compose(px, texelFetch(in_emission, px, 0).rgb, light);
     imageStore(out_radiance, px, vec4(counted_finite(radiance), 1.0));
 }

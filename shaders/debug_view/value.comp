@@ -3,7 +3,7 @@
 //   in   in_texture  any      the buffer (VIEW_* says which and how it is read)
 //   out  out_value   rgba32f  its value
 //
-//   VIEW_COLOR     rgb as it is           VIEW_VARIANCE   a of in_texture plus a of in_second, thrice
+//   VIEW_COLOR     rgb as it is           VIEW_VARIANCE   variance of in_texture plus that of in_second, thrice
 //   VIEW_RED       r, thrice              VIEW_DEPTH      view depth [m], thrice
 //   VIEW_GRADIENT  dz/dx, dz/dy, 0        VIEW_SHADING    shading normal
 //   VIEW_OBJECT    object id              VIEW_MATERIAL   material id
@@ -11,6 +11,7 @@
 #version 450
 #include "lib/frame.glsl"
 #include "lib/packing.glsl"
+#include "svgf/noise.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -31,7 +32,7 @@ vec3 value_at(ivec2 px)
 #elif defined(VIEW_NOTHING)
     return vec3(0.0);
 #elif defined(VIEW_VARIANCE)
-    return vec3(texelFetch(in_texture, px, 0).a + texelFetch(in_second, px, 0).a);
+    return vec3(variance_in(texelFetch(in_texture, px, 0).a) + variance_in(texelFetch(in_second, px, 0).a));
 #elif defined(VIEW_RED)
     return texelFetch(in_texture, px, 0).rrr;
 #else

@@ -7,7 +7,7 @@ layout(std140) uniform frame_block { FrameConstants frame; };
 // Unnormalised: the view depth along it grows by one a unit.
 vec3 camera_direction(CameraConstants camera, vec2 pixel)
 {
-    const vec2 ndc = pixel / vec2(frame.extent) * 2.0 - 1.0;
+    const vec2 ndc = pixel / vec2(camera.width, camera.height) * 2.0 - 1.0;
     return camera.forward + ndc.x * camera.right - ndc.y * camera.up;
 }
 
@@ -19,7 +19,13 @@ vec3 camera_project(CameraConstants camera, vec3 position_ws)
     precise const float depth = dot(v, camera.forward);
     precise const vec2 ndc = vec2(dot(v, camera.right) / dot(camera.right, camera.right),
                          -dot(v, camera.up) / dot(camera.up, camera.up)) / depth;
-    return vec3((ndc * 0.5 + 0.5) * vec2(frame.extent), depth);
+    return vec3((ndc * 0.5 + 0.5) * vec2(camera.width, camera.height), depth);
 }
 
 bool inside_frame(ivec2 px) { return all(greaterThanEqual(px, ivec2(0))) && all(lessThan(px, ivec2(frame.extent))); }
+
+// Of last frame's textures, which may have another size.
+bool inside_prev_frame(ivec2 px)
+{
+    return all(greaterThanEqual(px, ivec2(0))) && all(lessThan(px, ivec2(frame.prev_camera.width, frame.prev_camera.height)));
+}

@@ -11,16 +11,17 @@ struct CameraConstants {
     vec3 position;  // world space [m]
     float pixel_footprint;  // height of a pixel at view depth 1 [m]
     vec3 forward;  // unit
-    float pad0;
+    float width;  // of the picture it draws [px]
     vec3 right;  // half the picture's width at view depth 1
-    float pad1;
+    float height;  // [px]
     vec3 up;  // half the picture's height at view depth 1
-    float pad2;
+    float pad0;
 };
 
 struct FrameConstants {
     CameraConstants camera;
-    CameraConstants prev_camera;  // last frame's; equals camera when there was none
+    CameraConstants prev_camera;  // last frame's, perhaps of another size; equals camera when there
+                                  // was none
 
     vec3 background;  // radiance of a ray that leaves the scene [W/(m^2 sr)]
     uint first_sample;  // samples a pixel since the view was cut; with seed the source of all
@@ -29,6 +30,11 @@ struct FrameConstants {
     uvec2 extent;  // render resolution [px]
     uint seed;
     uint light_count;  // that can be chosen; 0: a scene without, in a program with
+
+    uint frame_index;  // frames since the view was cut
+    uint pad0;
+    uint pad1;
+    uint pad2;
 };
 
 SHARED_END

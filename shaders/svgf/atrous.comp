@@ -1,6 +1,6 @@
 // SVGF a-trous wavelet filter: one iteration over one kind of signal (SIGNAL_*).
 //
-//   in   in_light, in_light_2    rgba32f  demodulated radiance rgb, luminance variance a
+//   in   in_light, in_light_2    rgba32f  demodulated radiance rgb, noise a (svgf/noise.glsl)
 //        and the G-buffer textures of svgf/signal.glsl
 //   out  out_light, out_light_2  rgba32f  as the input, filtered
 //
@@ -51,6 +51,7 @@ void main()
 
     vec4 sum = vec4(light.first.rgb, light.first.a * CENTER_WEIGHT) * CENTER_WEIGHT;
     vec4 sum_2 = vec4(light.second.rgb, light.second.a * CENTER_WEIGHT) * CENTER_WEIGHT;
+    vec2 half_sum = light.half_difference * CENTER_WEIGHT;
     vec2 weight_sum = vec2(CENTER_WEIGHT);
     // Loops, not a branch: what takes no part has no taps. No division: llvmpipe divides integers a lane at a time.
     const bool filtered = takes_part(p);
@@ -68,10 +69,13 @@ void main()
             if (inside_frame(q) && takes_part(other) && o != ivec2(0)) {
                 sum += vec4(light_q.first.rgb, light_q.first.a * weight.x) * weight.x;
                 sum_2 += vec4(light_q.second.rgb, light_q.second.a * weight.y) * weight.y;
+                half_sum += light_q.half_difference * weight;
                 weight_sum += weight;
             }
         }
     const vec2 scale = 1.0 / weight_sum;
-    store_light(px, filtered ? sum * vec2(scale.x, scale.x * scale.x).xxxy : light.first,
-        filtered ? sum_2 * vec2(scale.y, scale.y * scale.y).xxxy : light.second);
+    const Light mean = Light(
+        sum * vec2(scale.x, scale.x * scale.x).xxxy, sum_2 * vec2(scale.y, scale.y * scale.y).xxxy, half_sum * scale);
+    store_light(px, Light(filtered ? mean.first : light.first, filtered ? mean.second : light.second,
+                        filtered ? mean.half_difference : light.half_difference));
 }

@@ -40,7 +40,7 @@ Past past_of(ivec2 px)
 
 bool consistent(Past p, ivec2 q)
 {
-    return inside_frame(q) && abs(transmittance(texelFetch(prev_fog_way, q, 0).x) - p.key) <= p.tolerance;
+    return inside_prev_frame(q) && abs(transmittance(texelFetch(prev_fog_way, q, 0).x) - p.key) <= p.tolerance;
 }
 
 bool lit(ivec2 px) { return true; }
@@ -80,7 +80,7 @@ Past past_of_surface(ivec2 px)
 // Whether last frame's pixel q shows the same piece of surface. Written as accept-if: a NaN anywhere rejects.
 bool consistent_surface(Past p, ivec2 q)
 {
-    if (!inside_frame(q))
+    if (!inside_prev_frame(q))
         return false;
     const uvec4 identity = texelFetch(prev_identity, q, 0);
     const uvec4 surface = texelFetch(prev_surface, q, 0);

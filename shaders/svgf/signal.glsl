@@ -7,6 +7,7 @@
 //   SIGNAL_SCATTERED  light scattered by fog before the first surface: what is beyond the same amount of fog shares
 //                     its light, on surfaces and sky alike.
 #pragma once
+#include "svgf/noise.glsl"
 #include "svgf/surface.glsl"
 
 #ifdef SIGNAL_DIFFUSE
@@ -20,26 +21,31 @@ layout(rgba32f) readonly uniform image2D in_light_2;
 uniform writeonly image2D out_light_2;
 #endif
 
-// Radiance rgb, luminance variance a. Of a single signal the second is zero all through.
+// Radiance rgb, luminance variance a, and the half differences of both (svgf/noise.glsl). Of a single signal the second
+// is zero all through.
 struct Light {
     vec4 first;
     vec4 second;
+    vec2 half_difference;
 };
 
 Light load_light(ivec2 q)
 {
+    const vec4 first = imageLoad(in_light, q);
 #ifdef SIGNAL_PAIR
-    return Light(imageLoad(in_light, q), imageLoad(in_light_2, q));
+    const vec4 second = imageLoad(in_light_2, q);
 #else
-    return Light(imageLoad(in_light, q), vec4(0.0));
+    const vec4 second = vec4(0.0);
 #endif
+    return Light(vec4(first.rgb, variance_in(first.a)), vec4(second.rgb, variance_in(second.a)),
+        vec2(half_difference_in(first.a), half_difference_in(second.a)));
 }
 
-void store_light(ivec2 px, vec4 first, vec4 second)
+void store_light(ivec2 px, Light light)
 {
-    imageStore(out_light, px, first);
+    imageStore(out_light, px, vec4(light.first.rgb, pack_noise(light.first.a, light.half_difference.x)));
 #ifdef SIGNAL_PAIR
-    imageStore(out_light_2, px, second);
+    imageStore(out_light_2, px, vec4(light.second.rgb, pack_noise(light.second.a, light.half_difference.y)));
 #endif
 }
 

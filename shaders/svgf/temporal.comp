@@ -2,11 +2,11 @@
 // frame's samples.
 //
 //   in   in_light, in_light_2      rgba32f  this frame's demodulated radiance
-//        prev_light, prev_light_2  rgba32f  filtered radiance rgb, unused a (last frame's feedback)
+//        prev_light, prev_light_2  rgba32f  filtered radiance rgb, noise a (last frame's feedback)
 //        prev_moments              rgba32f  luminance mean and variance of the first (xy) and second (zw) signal
 //        prev_length               r32f     history length [frames]
 //        and the G-buffer textures, this frame's and last frame's, of svgf/past.glsl
-//   out  out_light, out_light_2    rgba32f  blended radiance rgb, luminance variance a
+//   out  out_light, out_light_2    rgba32f  blended radiance rgb, noise a (svgf/noise.glsl)
 //        out_moments, out_length            feed back next frame as prev_moments, prev_length
 //
 // Source: Schied et al. 2017, "Spatiotemporal Variance-Guided Filtering", sections 4.1 and 4.2.
@@ -14,6 +14,7 @@
 // moments are kept centred (mean, variance), which is the same exponential average without cancellation; the history
 // length is the least of the taps used.
 #version 450
+#include "svgf/noise.glsl"
 #include "svgf/past.glsl"
 #include "lib/counters.glsl"
 
@@ -49,6 +50,7 @@ const float LEAST_TAP_WEIGHT = 1e-3;
 struct HistorySum {
     vec3 first;
     vec3 second;
+    vec2 half_difference;
     vec4 moments;
     float least_length;
     float weight;
@@ -57,9 +59,13 @@ struct HistorySum {
 void add_tap(Past p, ivec2 q, float weight, inout HistorySum sum)
 {
     if (weight >= LEAST_TAP_WEIGHT && consistent(p, q)) {
-        sum.first += weight * texelFetch(prev_light, q, 0).rgb;
+        const vec4 first = texelFetch(prev_light, q, 0);
+        sum.first += weight * first.rgb;
+        sum.half_difference.x += weight * half_difference_in(first.a);
 #ifdef SIGNAL_PAIR
-        sum.second += weight * texelFetch(prev_light_2, q, 0).rgb;
+        const vec4 second = texelFetch(prev_light_2, q, 0);
+        sum.second += weight * second.rgb;
+        sum.half_difference.y += weight * half_difference_in(second.a);
 #endif
         sum.moments += weight * texelFetch(prev_moments, q, 0);
         sum.least_length = min(sum.least_length, texelFetch(prev_length, q, 0).x);
@@ -70,7 +76,7 @@ void add_tap(Past p, ivec2 q, float weight, inout HistorySum sum)
 // 2x2 bilinear taps, each tested; where none holds and there is something to find, the 3x3 neighbourhood.
 HistorySum reproject(Past p)
 {
-    HistorySum sum = HistorySum(vec3(0.0), vec3(0.0), vec4(0.0), 1e9, 0.0);
+    HistorySum sum = HistorySum(vec3(0.0), vec3(0.0), vec2(0.0), vec4(0.0), 1e9, 0.0);
     const vec2 corner = floor(p.pixel - 0.5);
     const vec2 f = p.pixel - 0.5 - corner;
     for (int i = 0; i < 4; ++i) {
@@ -121,6 +127,8 @@ void main()
 #endif
     vec4 moments = vec4(luminance(first), 0.0, luminance(second), 0.0);
     float length = 1.0;
+    // What is already known of the mean does not belong to the noise: it would pass where halves weigh unequally.
+    vec2 half_difference = half_sign(px) * moments.xz;
     if (found) {
         length = min(sum.least_length + 1.0, float(history_max));
         const float alpha = max(least_alpha(p), 1.0 / length);
@@ -129,14 +137,17 @@ void main()
         moments = vec4(blend_moments(old.xy, moments.x, alpha_moments), blend_moments(old.zw, moments.z, alpha_moments));
         const vec3 old_first = sum.first / sum.weight;
         const vec3 old_second = sum.second / sum.weight;
+        const vec2 surprise = vec2(luminance(first - old_first), luminance(second - old_second));
+        half_difference = mix(sum.half_difference / sum.weight, half_sign(px) * surprise, alpha);
         first = old_first + alpha * (first - old_first);
         second = old_second + alpha * (second - old_second);
     }
 
     moments = counted_finite(moments);
-    imageStore(out_light, px, vec4(counted_finite(first), moments.y));
+    half_difference = is_finite(half_difference.x + half_difference.y) ? half_difference : vec2(0.0);
+    imageStore(out_light, px, vec4(counted_finite(first), pack_noise(moments.y, half_difference.x)));
 #ifdef SIGNAL_PAIR
-    imageStore(out_light_2, px, vec4(counted_finite(second), moments.w));
+    imageStore(out_light_2, px, vec4(counted_finite(second), pack_noise(moments.w, half_difference.y)));
 #endif
     imageStore(out_moments, px, moments);
     imageStore(out_length, px, vec4(lit(px) ? length : 0.0));

@@ -1,6 +1,6 @@
 // SVGF variance where history is too short for temporal moments: estimated over 7x7 similar pixels.
 //
-//   in   in_light, in_light_2    rgba32f  blended radiance, temporal variance a
+//   in   in_light, in_light_2    rgba32f  blended radiance, noise a (svgf/noise.glsl) with the temporal variance
 //        in_moments              rgba32f  luminance mean and variance of both signals (a single one: of it, zero)
 //        in_length               r32f     history length [frames]
 //        and the G-buffer textures of svgf/signal.glsl
@@ -50,5 +50,5 @@ void main()
         const vec4 m = sum / weight_sum;
         variance = max(vec2(0.0), m.yw - m.xz * m.xz);
     }
-    store_light(px, vec4(light.first.rgb, variance.x), vec4(light.second.rgb, variance.y));
+    store_light(px, Light(vec4(light.first.rgb, variance.x), vec4(light.second.rgb, variance.y), light.half_difference));
 }

@@ -47,7 +47,7 @@ function hueColour(hue, light) {
     return [0, 1 / 3, 2 / 3].map((shift) => Math.round(255 * light * (0.5 + 0.45 * Math.cos(2 * Math.PI * (hue + shift)))));
 }
 
-const NEWEST_HEADER = 120;  // bytes
+const NEWEST_HEADER = 128;  // bytes
 const OLDER_HEADER = 80;    // of a server that knows nothing of accuracy
 
 function binaryFrame(size, fields, passes, payload) {

@@ -56,6 +56,7 @@ TEST(FrameHeader, PageExampleReadsAsThePageSays)
     EXPECT_EQ(header.effective_samples, 2);
     EXPECT_EQ(header.frame_us, 23000U);
     EXPECT_EQ(header.samples_per_pixel, 1U);
+    EXPECT_EQ(header.noise_error, 0.0625F);
     EXPECT_EQ(header.wait_us, 850U);
     EXPECT_EQ(header.trace_us, 13750U);
     EXPECT_EQ(header.denoise_us, 9000U);

@@ -58,8 +58,8 @@ protected:
     {
         Readback readback;
         readback.begin(graph.texture(texture));
-        return pixel(readback.finish(), kFrameGraphExtent.width - 1, kFrameGraphExtent.height - 1)
-            .x;
+        const Extent extent = graph.texture(texture).extent();
+        return pixel(readback.finish(), extent.width - 1, extent.height - 1).x;
     }
     void expect_refused(const std::string& part_a, const std::string& part_b)
     {
@@ -137,7 +137,7 @@ TEST_F(FrameGraphTest, HistoryIsLastFramesCurrent)
     }
 }
 
-TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndAfterAResize)
+TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndWhenForgotten)
 {
     const auto write = [&](Extent extent) {
         graph.begin_frame(extent, {});
@@ -152,13 +152,33 @@ TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndAfterAResi
     graph.execute();
     EXPECT_FALSE(write(kFrameGraphExtent));
     EXPECT_TRUE(write(kFrameGraphExtent));
+    EXPECT_TRUE(write({8, 8})) << "histories outlive a change of size";
+    graph.forget_histories();
     EXPECT_FALSE(write({8, 8}));
+}
+
+TEST_F(FrameGraphTest, AHistoryKeepsItsSizeUntilItIsWrittenAnew)
+{
+    const auto draw = [&](Extent extent, float amount) {
+        graph.begin_frame(extent, {});
+        const History history = graph.history("count", GL_RGBA32F);
+        fill(history.current, amount);
+        graph.execute();
+        return history;
+    };
+    draw(kFrameGraphExtent, 1);
+    const History smaller = draw({8, 8}, 2);
+    EXPECT_EQ(graph.texture(smaller.previous).extent(), kFrameGraphExtent);
+    EXPECT_EQ(value_of(smaller.previous), 1);
+    EXPECT_EQ(graph.texture(smaller.current).extent(), (Extent{8, 8}));
+    EXPECT_EQ(value_of(draw({8, 8}, 3).previous), 2);
 }
 
 /// What the last frame kept has its size and must not serve the next one, which has another.
 TEST_F(FrameGraphTest, AfterAResizeEveryTextureHasTheNewSize)
 {
     const auto draw = [&](Extent extent) {
+        graph.forget_histories();
         graph.begin_frame(extent, {});
         const History history = graph.history("count", GL_RGBA32F);
         graph.add_pass("fill", "tests/fill")

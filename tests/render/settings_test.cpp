@@ -90,7 +90,7 @@ json other_value(const json& row)
         {"max_depth", 2}, {"roulette_depth", 1}, {"history_max", 2}, {"exposure", 2},
         {"sigma_normal", 4}, {"atrous_iterations", 2}, {"reproject_depth", 0.01},
         {"reproject_normal", 1}, {"svgf_alpha", 0.7}, {"svgf_moments_alpha", 0.7},
-        {"svgf_spatial_frames", 1}, {"refine_crossover", 1}};
+        {"svgf_spatial_frames", 1}, {"refine_crossover", 1}, {"resolution_scale", 0.5}};
     if (const auto found = kChosen.find(row["key"]); found != kChosen.end())
         return found->second;
     if (row["type"] == "choice")

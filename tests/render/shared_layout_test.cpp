@@ -44,10 +44,10 @@ void main() { results[0] = vec4(frame.camera.position, 0.0); }
             std::map<std::string, std::size_t>{{"position", offsetof(CameraConstants, position)},
                 {"pixel_footprint", offsetof(CameraConstants, pixel_footprint)},
                 {"forward", offsetof(CameraConstants, forward)},
-                {"pad0", offsetof(CameraConstants, pad0)},
+                {"width", offsetof(CameraConstants, width)},
                 {"right", offsetof(CameraConstants, right)},
-                {"pad1", offsetof(CameraConstants, pad1)}, {"up", offsetof(CameraConstants, up)},
-                {"pad2", offsetof(CameraConstants, pad2)}})
+                {"height", offsetof(CameraConstants, height)},
+                {"up", offsetof(CameraConstants, up)}, {"pad0", offsetof(CameraConstants, pad0)}})
             expected["frame." + std::string(camera) + "." + member] =
                 static_cast<GLint>(base + offset);
     expected["frame.background"] = offsetof(FrameConstants, background);
@@ -55,6 +55,10 @@ void main() { results[0] = vec4(frame.camera.position, 0.0); }
     expected["frame.extent"] = offsetof(FrameConstants, extent);
     expected["frame.seed"] = offsetof(FrameConstants, seed);
     expected["frame.light_count"] = offsetof(FrameConstants, light_count);
+    expected["frame.frame_index"] = offsetof(FrameConstants, frame_index);
+    expected["frame.pad0"] = offsetof(FrameConstants, pad0);
+    expected["frame.pad1"] = offsetof(FrameConstants, pad1);
+    expected["frame.pad2"] = offsetof(FrameConstants, pad2);
     EXPECT_EQ(member_offsets(program.id()), expected);
     EXPECT_EQ(sizeof(FrameConstants) % 16, 0U);
 }

@@ -32,6 +32,7 @@ shared::FrameConstants test_frame()
     frame.camera.forward = {0, 0, -1};
     frame.camera.right = {1, 0, 0};
     frame.camera.up = {0, 1, 0};
+    frame.camera.width = frame.camera.height = 64;
     frame.prev_camera = frame.camera;
     frame.extent = {64, 64};
     return frame;

@@ -1,0 +1,90 @@
+// Error estimate stage: how far the picture is from the truth, from its own samples. The host adds
+// up what the passes sum over tiles (server/render/error_estimate.h).
+#pragma once
+
+#include "server/passes/accumulate.h"
+#include "server/passes/path_trace.h"
+#include "server/render/error_estimate.h"
+
+namespace farlight {
+
+/// Where in tile_block a pass writes its sums.
+inline int tile_offset(TileSums sums, Extent extent)
+{
+    const Extent tiles = tiles_of(extent);
+    return static_cast<int>(sums) * tiles.width * tiles.height;
+}
+
+/// What shaders that look at the filtered picture's noise read
+/// (error_estimate/noise_of_picture.glsl).
+inline void read_filtered(
+    Pass& pass, const FrameInputs& inputs, const GBuffer& gbuffer, const Signals& filtered)
+{
+    pass.define({{"LIT", "1"}, {"ERROR_ESTIMATE", "1"}})
+        .read("in_direct", filtered.direct)
+        .read("in_indirect", filtered.indirect)
+        .read("in_albedo", gbuffer.albedo);
+    if (inputs.has_specular())
+        pass.define({{"FX_SPECULAR_SIGNAL", "1"}})
+            .read("in_specular", filtered.specular)
+            .read("in_reflectance", gbuffer.reflectance);
+    if (inputs.has_fog())
+        pass.define({{"FX_FOG", "1"}})
+            .read("in_scattered", filtered.scattered)
+            .read("in_fog_way", gbuffer.fog_way)
+            .constant("fog_sigma_t", inputs.fog.sigma_t);
+}
+
+/// `picture`: composite of `filtered`. `frame_index`: frames since the cut, as in the frame's
+/// constants.
+inline void add_predict(FrameGraph& graph, const FrameInputs& inputs, const GBuffer& gbuffer,
+    const Signals& noisy, const Signals& filtered,
+    std::pair<TextureHandle, std::uint32_t> picture_and_index)
+{
+    const auto [picture, frame_index] = picture_and_index;
+    const History difference = graph.history("error_estimate.difference", GL_RGBA32F);
+    Pass& pass = graph.add_pass("predict error", "error_estimate/predict.comp")
+                     .read("in_picture", picture)
+                     .read("noisy_direct", noisy.direct)
+                     .read("noisy_indirect", noisy.indirect)
+                     .constant("tile_offset", tile_offset(TileSums::kPredicted, graph.extent()))
+                     .dispatch(tiles_of(graph.extent()));
+    read_filtered(pass, inputs, gbuffer, filtered);
+    if (inputs.has_specular())
+        pass.read("noisy_specular", noisy.specular);
+    if (inputs.has_fog())
+        pass.read("noisy_scattered", noisy.scattered);
+    if (frame_index % 2 == 0)
+        pass.define({{"FIRST_OF_PAIR", "1"}}).write("out_difference", difference.current);
+    else if (difference.valid)
+        pass.define({{"SECOND_OF_PAIR", "1"}})
+            .read("prev_difference", difference.previous)
+            .read("in_motion", gbuffer.motion);
+}
+
+/// Each pixel's predicted deviation relative to the picture (r32f).
+inline TextureHandle add_deviation(FrameGraph& graph, const FrameInputs& inputs,
+    const GBuffer& gbuffer, const Signals& filtered, TextureHandle picture)
+{
+    const TextureHandle deviation = graph.create("error_estimate.deviation", GL_R32F);
+    Pass& pass = graph.add_pass("predicted deviation", "error_estimate/deviation.comp")
+                     .read("in_picture", picture)
+                     .write("out_deviation", deviation);
+    read_filtered(pass, inputs, gbuffer, filtered);
+    return deviation;
+}
+
+/// `picture`: the denoised one, if there is one and a reference to measure it against.
+inline void add_measure(FrameGraph& graph, const Mean& mean, TextureHandle picture)
+{
+    Pass& pass = graph.add_pass("measure error", "error_estimate/measure.comp")
+                     .read("in_mean", mean.radiance)
+                     .constant("tile_offset", tile_offset(TileSums::kMeasured, graph.extent()))
+                     .dispatch(tiles_of(graph.extent()));
+    if (picture.index >= 0)
+        pass.define({{"WITH_REFERENCE", "1"}})
+            .read("in_picture", picture)
+            .read("in_reference", mean.prev_reference);
+}
+
+}  // namespace farlight
