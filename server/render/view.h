@@ -28,7 +28,7 @@ struct SharedScene {
 };
 
 /// GPU memory a view takes at most, with every stage on, its pixel buffer included [bytes a pixel].
-constexpr std::size_t kViewBytesPerPixel = 640;
+constexpr std::size_t kViewBytesPerPixel = 768;
 
 /// Effects that a frame calls for by itself, whatever the scene.
 EffectMask effects_of(const FramePlan& plan);

@@ -103,12 +103,13 @@ json other_value(const json& row)
 class SettingsReachTheImage : public GlTest { };
 
 /// The test that would have caught a setting which reaches no shader. Those that act outside the
-/// picture are named: jpeg_quality acts in the encoder, still_samples on when the still is final,
-/// effects on the time that a picture takes, play, time and time_step on which moment is drawn.
+/// picture are named: error_estimate acts on what is said of it, jpeg_quality in the encoder,
+/// still_samples on when the still is final, effects on the time that a picture takes, play, time
+/// and time_step on which moment is drawn.
 TEST_F(SettingsReachTheImage, EverySettingChangesTheImage)
 {
     const std::set<std::string> elsewhere{
-        "effects", "jpeg_quality", "play", "still_samples", "time", "time_step"};
+        "effects", "error_estimate", "jpeg_quality", "play", "still_samples", "time", "time_step"};
     Scene scene = room_with(bumpy_sphere(24, 12));
     const TestScene on_device(scene);
     const auto render = [&](const RenderSettings& settings, bool refine) {
