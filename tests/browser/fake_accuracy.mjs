@@ -55,6 +55,7 @@ export function accuracyFields(values, [width, height], { still, accumulated, fr
     const kind = still ? "measured" : "predicted";
     return {
         width: Math.round(width * scale), height: Math.round(height * scale), rung, samples_per_pixel: samples, raw_error: raw,
+        ...(still ? {} : { noise_error: 0.75 * error }),
         [`${kind}_error`]: error, [`${kind}_lower`]: 0.8 * error, [`${kind}_upper`]: 1.25 * error,
         reference_samples: still ? 2 * accumulated : 0, effective_samples: samples * raw / error,
         trace_us: Math.round(600 * ms * wobble), denoise_us: Math.round(400 * ms * wobble), frame_us: Math.round(1020 * ms * wobble),
