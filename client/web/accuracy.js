@@ -150,7 +150,15 @@ export class Accuracy {
         const live = this.#trail.at(-1) ?? null;
         const words = [...points.map(({ label, ms, error }) => `${label}: ${milliseconds(ms)}, error ${errorNumber(error)}`),
             ...(live ? [`now: ${milliseconds(live.ms)}, error ${errorNumber(live.error)}`] : [])];
-        this.#plot.show({ points, live, trail: this.#trail.slice(0, -1), target: this.#goal.target }, `Error against time. ${words.join("; ")}`);
+        this.#plot.show({ points, live, trail: this.#trail.slice(0, -1), measured: this.#measured(), target: this.#goal.target }, `Error against time. ${words.join("; ")}`);
+    }
+
+    /** The denoised picture behind the one that is shown, where that is another. */
+    #measured() {
+        const header = this.#header;
+        if (!(header?.measured_error > 0) || errorOf(header).measured)
+            return null;
+        return { ms: (header.trace_us + header.denoise_us) / 1000, error: header.measured_error, lower: header.measured_lower, upper: header.measured_upper };
     }
 
     /** Below the plot: what is pointed at, or which point draws now, and where the frontier is from. */

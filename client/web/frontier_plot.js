@@ -35,7 +35,7 @@ export function rangeFor(values, before, otherwise) {
 export class FrontierPlot {
     #node; #pointed;
     #plot = null;
-    #points = []; #untold = []; #live = null; #trail = []; #target = null;
+    #points = []; #untold = []; #live = null; #trail = []; #measured = null; #target = null;
     #x = null; #y = null;
 
     /** `node` holds the plot; `pointed(point)` tells which of the frontier's points is pointed at, null: none. */
@@ -45,13 +45,13 @@ export class FrontierPlot {
         new ResizeObserver(() => this.#fit()).observe(node);
     }
 
-    /** `live` and `trail` are {ms, error, still}, `target` is {kind, value} or null, `describe` the words for who cannot see it. */
-    show({ points, live, trail, target }, describe) {
+    /** `live` and `trail` are {ms, error, still}, `measured` is {ms, error, lower, upper} or null, `target` is {kind, value} or null, `describe` the words for who cannot see it. */
+    show({ points, live, trail, measured, target }, describe) {
         this.#points = points.filter(({ error }) => error > 0);
         this.#untold = points.filter(({ error }) => !(error > 0));
-        [this.#live, this.#trail, this.#target] = [live, trail, target];
+        [this.#live, this.#trail, this.#measured, this.#target] = [live, trail, measured, target];
         const wanted = (kind) => (target?.kind === kind ? [target.value] : []);
-        const seen = live ? [...trail, live] : trail;
+        const seen = [...trail, live, measured].filter(Boolean);
         this.#x = rangeFor([...points, ...seen].map(({ ms }) => ms).concat(wanted("time")), this.#x, [10, 100]);
         this.#y = rangeFor([...this.#points.flatMap(({ error, lower, upper }) => [error, lower, upper]), ...seen.map(({ error }) => error), ...wanted("accuracy")], this.#y, [1e-3, 0.1]);
         this.#node.setAttribute("aria-label", describe);
@@ -107,6 +107,8 @@ export class FrontierPlot {
             mark(context, at(point), 2 * ratio, point.still);
         });
         context.globalAlpha = 1;
+        if (this.#measured)
+            this.#drawMeasured(context, at, ratio);
         if (this.#live)
             mark(context, at(this.#live), 5.5 * ratio, this.#live.still, "#fff");
         context.restore();
@@ -116,20 +118,32 @@ export class FrontierPlot {
         context.strokeStyle = BLUE;
         context.lineWidth = 1.5 * ratio;
         context.beginPath();
-        for (const { ms, lower, upper } of this.#points) {
-            const [[x, low], [, high]] = [at({ ms, error: Math.max(lower, this.#y[0] / 10) }), at({ ms, error: upper })];
-            context.moveTo(x, low);
-            context.lineTo(x, high);
-            for (const y of [low, high]) {
-                context.moveTo(x - WHISKER * ratio, y);
-                context.lineTo(x + WHISKER * ratio, y);
-            }
-        }
+        for (const point of this.#points)
+            this.#traceWhisker(context, at, ratio, point);
         for (const { ms } of this.#untold) { // its error is not known yet: a mark on the axis
             const x = at({ ms, error: this.#y[0] })[0];
             context.moveTo(x, bottom);
             context.lineTo(x, bottom - 8 * ratio);
         }
+        context.stroke();
+    }
+
+    #traceWhisker(context, at, ratio, { ms, lower, upper }) {
+        const [[x, low], [, high]] = [at({ ms, error: Math.max(lower, this.#y[0] / 10) }), at({ ms, error: upper })];
+        context.moveTo(x, low);
+        context.lineTo(x, high);
+        for (const y of [low, high]) {
+            context.moveTo(x - WHISKER * ratio, y);
+            context.lineTo(x + WHISKER * ratio, y);
+        }
+    }
+
+    #drawMeasured(context, at, ratio) {
+        context.strokeStyle = GREEN;
+        context.lineWidth = 2 * ratio;
+        context.beginPath();
+        this.#traceWhisker(context, at, ratio, this.#measured);
+        traceDiamond(context, at(this.#measured), 5 * ratio);
         context.stroke();
     }
 
@@ -150,17 +164,21 @@ export class FrontierPlot {
     }
 }
 
+function traceDiamond(context, [x, y], size) {
+    context.moveTo(x, y - size);
+    context.lineTo(x + size, y);
+    context.lineTo(x, y + size);
+    context.lineTo(x - size, y);
+    context.closePath();
+}
+
 /** A picture at rest is a diamond, a moving one a disc. */
 function mark(context, [x, y], size, still, outline) {
     context.fillStyle = still ? GREEN : ORANGE;
     context.beginPath();
-    if (still) {
-        context.moveTo(x, y - 1.25 * size);
-        context.lineTo(x + 1.25 * size, y);
-        context.lineTo(x, y + 1.25 * size);
-        context.lineTo(x - 1.25 * size, y);
-        context.closePath();
-    } else
+    if (still)
+        traceDiamond(context, [x, y], 1.25 * size);
+    else
         context.arc(x, y, size, 0, 2 * Math.PI);
     context.fill();
     if (outline) {

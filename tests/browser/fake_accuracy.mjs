@@ -1,7 +1,7 @@
 // What the fake server says of accuracy: settings, a frontier, and for each frame an error that follows from them.
 //
-// A moving frame of samples n at scale s takes 12 + 40 n s^2 ms and has the error 0.004 / (n s^2), 1.1 more in raw samples; a
-// resting picture's falls with the samples it holds.
+// A frame of n samples at scale s takes 12 + 40 n s^2 ms and has the error 0.004 / (n s^2), its raw samples 40 times that. A resting
+// picture has that of a plain mean once this is less; the error of its denoised frames is measured once 12 samples are forgotten.
 const RUNGS = [[0.5, 1], [0.75, 1], [1, 1], [1, 2], [1, 4], [1, 8]];
 const RAW = 40;  // times the error that the filter leaves
 
@@ -52,12 +52,12 @@ export function accuracyFields(values, [width, height], { still, accumulated, fr
     const noise = errorOf([scale, samples]) * wobble;
     const raw = RAW * noise;
     const error = still ? Math.min(noise, raw * samples / accumulated) : noise;
-    const kind = still ? "measured" : "predicted";
+    const measured = still && accumulated > 12;
     return {
         width: Math.round(width * scale), height: Math.round(height * scale), rung, samples_per_pixel: samples, raw_error: raw,
-        ...(still ? {} : { noise_error: 0.75 * error }),
-        [`${kind}_error`]: error, [`${kind}_lower`]: 0.8 * error, [`${kind}_upper`]: 1.25 * error,
-        reference_samples: still ? 2 * accumulated : 0, effective_samples: samples * raw / error,
+        predicted_error: error, predicted_lower: 0.8 * error, predicted_upper: 1.25 * error, noise_error: 0.75 * error,
+        ...(measured && { measured_error: 1.1 * noise, measured_lower: noise, measured_upper: 1.2 * noise, reference_samples: accumulated - 12 }),
+        effective_samples: samples * raw / error,
         trace_us: Math.round(600 * ms * wobble), denoise_us: Math.round(400 * ms * wobble), frame_us: Math.round(1020 * ms * wobble),
     };
 }
