@@ -47,6 +47,10 @@ inline void add_predict(FrameGraph& graph, const FrameInputs& inputs, const GBuf
                      .read("in_picture", picture)
                      .read("noisy_direct", noisy.direct)
                      .read("noisy_indirect", noisy.indirect)
+                     .read("in_motion", gbuffer.motion)
+                     .read("prev_difference", difference.previous)
+                     .write("out_difference", difference.current)
+                     .constant("second_of_pair", frame_index % 2 == 1 && difference.valid ? 1 : 0)
                      .constant("tile_offset", tile_offset(TileSums::kPredicted, graph.extent()))
                      .dispatch(tiles_of(graph.extent()));
     read_filtered(pass, inputs, gbuffer, filtered);
@@ -54,12 +58,6 @@ inline void add_predict(FrameGraph& graph, const FrameInputs& inputs, const GBuf
         pass.read("noisy_specular", noisy.specular);
     if (inputs.has_fog())
         pass.read("noisy_scattered", noisy.scattered);
-    if (frame_index % 2 == 0)
-        pass.define({{"FIRST_OF_PAIR", "1"}}).write("out_difference", difference.current);
-    else if (difference.valid)
-        pass.define({{"SECOND_OF_PAIR", "1"}})
-            .read("prev_difference", difference.previous)
-            .read("in_motion", gbuffer.motion);
 }
 
 /// Each pixel's predicted deviation relative to the picture (r32f).

@@ -7,15 +7,11 @@
 //   in   in_direct, in_indirect, in_specular, in_scattered              rgba32f  filtered light, noise a
 //        noisy_direct, noisy_indirect, noisy_specular, noisy_scattered  rgba32f  this frame's
 //        in_picture                                                     rgba32f  the filtered picture
-//        and the G-buffer textures of composite/compose.glsl
-//   out  tile_block: sums of relative square errors: of the filtered picture's noise (x), of this frame's samples
-//        themselves (y)
-//   FIRST_OF_PAIR
-//   out  out_difference   rgba32f  x_1 - B_1, relative to the picture
-//   SECOND_OF_PAIR
-//   in   prev_difference  rgba32f  the same
-//        in_motion        rgba32f  G-buffer
-//   out  tile_block: sums of products (z), and how many (w)
+//        prev_difference                                                rgba32f  x_1 - B_1, in the second of a pair
+//        in_motion, and the G-buffer textures of composite/compose.glsl
+//   out  out_difference                                                 rgba32f  x_1 - B_1, relative to the picture
+//        tile_block: sums of relative square errors: of the filtered picture's noise (x), of this frame's samples
+//        themselves (y); in the second of a pair the products (z), and how many (w)
 #version 450
 #include "error_estimate/noise_of_picture.glsl"
 #include "error_estimate/tiles.glsl"
@@ -30,13 +26,10 @@ uniform sampler2D noisy_specular;
 uniform sampler2D noisy_scattered;
 #endif
 
-#ifdef FIRST_OF_PAIR
-uniform writeonly image2D out_difference;
-#endif
-#ifdef SECOND_OF_PAIR
 uniform sampler2D prev_difference;
 uniform sampler2D in_motion;
-#endif
+uniform writeonly image2D out_difference;
+uniform int second_of_pair;
 
 // Relative to the picture: what noise has moved it by, what tells this frame's samples from it, and from the half of the
 // other colour.
@@ -71,15 +64,14 @@ vec4 sums_at(ivec2 px)
 {
     const Differences d = differences_at(px);
     vec2 product = vec2(0.0);
-#ifdef FIRST_OF_PAIR
-    imageStore(out_difference, px, vec4(d.half_picture, 0.0));
-#endif
-#ifdef SECOND_OF_PAIR
-    const vec4 motion = texelFetch(in_motion, px, 0);
-    const ivec2 before = ivec2(floor(vec2(px) + 0.5 + motion.xy));
-    // Of the other colour, the older sample would be in this one's half picture.
-    if (motion.w > 0.0 && inside_prev_frame(before) && half_sign(before) == half_sign(px))
-        product = vec2(dot(d.half_picture, texelFetch(prev_difference, before, 0).rgb) / 3.0, 1.0);
-#endif
+    if (second_of_pair == 0) {
+        imageStore(out_difference, px, vec4(d.half_picture, 0.0));
+    } else {
+        const vec4 motion = texelFetch(in_motion, px, 0);
+        const ivec2 before = ivec2(floor(vec2(px) + 0.5 + motion.xy));
+        // Of the other colour, the older sample would be in this one's half picture.
+        if (motion.w > 0.0 && inside_prev_frame(before) && half_sign(before) == half_sign(px))
+            product = vec2(dot(d.half_picture, texelFetch(prev_difference, before, 0).rgb) / 3.0, 1.0);
+    }
     return vec4(dot(d.noise, d.noise) / 3.0, dot(d.raw, d.raw) / 3.0, product);
 }
