@@ -102,6 +102,23 @@ test("the sheet of debug views and a buffer of its own", async () => {
     await choose("view", "final");
 });
 
+test("errors are predicted while the camera moves and measured when it rests", async () => {
+    await page.locator("#stage").focus();
+    await page.keyboard.down("ArrowLeft");
+    await until(page, () => window.farlight.lastHeader.predicted_error > 0 && !window.farlight.lastHeader.flags.still);
+    await page.keyboard.up("ArrowLeft");
+    const moving = await header();
+    assert.ok(moving.predicted_lower <= moving.predicted_error && moving.predicted_error <= moving.predicted_upper, JSON.stringify(moving));
+    await page.keyboard.press("r");
+    await until(page, () => window.farlight.lastHeader.measured_error > 0 && window.farlight.lastHeader.reference_samples > 8);
+    const resting = await header();
+    assert.ok(resting.predicted_error > 0 && resting.raw_error > resting.predicted_error, JSON.stringify(resting));
+    assert.ok(resting.effective_samples > resting.samples_per_pixel, JSON.stringify(resting));
+    await until(page, () => /Measured error\d.* to .*, against \d+ samples/.test(document.getElementById("accuracy-rows").textContent));
+    await screenshot(page, "server_accuracy");
+    assert.deepEqual(page.complaints, []);
+});
+
 test("a slider changes a setting on the server", async () => {
     await page.locator("summary", { hasText: "All other settings" }).click();
     const slider = page.locator("#setting-exposure");
