@@ -51,6 +51,13 @@ double ms_of(const json& times)
     return times.at("ms").at("value").get<double>();
 }
 
+/// Light left to chance saves next to nothing where a scene has lights and ruins the picture: it is
+/// measured to show what sampling brings, and is nobody's choice.
+bool is_choice(const json& settings)
+{
+    return settings.value("light_sampling", true);
+}
+
 /// Both settings alike but for the keys in `but`.
 bool alike(const Settings& a, const Settings& b, const std::set<std::string>& but)
 {
@@ -87,8 +94,9 @@ public:
 private:
     TimedError timed(const json& row, const char* error) const
     {
-        const bool limited = row.at("reference_limited").get<bool>();
-        return {row.at("ms").get<double>(), limited ? 0 : row.at(error).get<double>()};
+        const bool counts =
+            !row.at("reference_limited").get<bool>() && is_choice(row.at("settings"));
+        return {row.at("ms").get<double>(), counts ? row.at(error).get<double>() : 0};
     }
 
     std::vector<std::size_t> frontier_by(const char* error) const
@@ -96,12 +104,7 @@ private:
         std::vector<TimedError> timed_errors;
         for (const json& row : points_)
             timed_errors.push_back(timed(row, error));
-        std::vector<std::size_t> frontier = pareto_frontier(timed_errors);
-        // Nobody chooses a point when one with less error is not measurably slower.
-        for (std::size_t i = frontier.size(); i-- > 1;)
-            if (points_[frontier[i]]["ms"] <= points_[frontier[i - 1]]["ms_upper"])
-                frontier.erase(frontier.begin() + static_cast<std::ptrdiff_t>(i) - 1);
-        return frontier;
+        return pareto_frontier(timed_errors);
     }
 
     json frontier()
@@ -130,7 +133,7 @@ private:
             if (!is_limited(error))
                 errors.push_back({frames * ms_of(measured_.averaging_times),
                     error.at("relmse").at("value").get<double>()});
-        return errors.empty() ? std::nullopt : fit_error(errors, /*unbiased=*/true);
+        return errors.empty() ? std::nullopt : fit_error(errors, /*floor=*/0);
     }
 
     json averaging() const
@@ -197,22 +200,33 @@ private:
         return names;
     }
 
+    /// The bias of a denoiser at the most samples it was measured with, where seeds show one.
+    static std::optional<double> measured_floor(const MeasuredPoint& measured)
+    {
+        const json& bias = measured.error.at("bias");
+        return bias.at("lower") > 0 ? std::optional(bias.at("value").get<double>()) : std::nullopt;
+    }
+
     json fits() const
     {
         const auto averaged = averaging_fit();
         json rows = json::array();
         for (const std::string& denoiser : denoisers()) {
             std::vector<TimedError> errors;
-            for (const MeasuredPoint* measured : ladder_of(denoiser))
-                if (!is_limited(measured->error))
-                    errors.push_back({ms_of(measured->times),
-                        measured->error.at("relmse").at("value").get<double>()});
-            const auto fit = fit_error(errors);
-            if (!fit)
+            std::optional<double> floor;
+            for (const MeasuredPoint* measured : ladder_of(denoiser)) {
+                if (is_limited(measured->error))
+                    continue;
+                errors.push_back({ms_of(measured->times),
+                    measured->error.at("relmse").at("value").get<double>()});
+                floor = measured_floor(*measured);
+            }
+            const auto fit = fit_error(errors, floor);
+            if (!fit || denoiser == kRaw)
                 continue;
-            json row{{"denoiser", denoiser}, {"floor", fit->floor}, {"rate", fit->rate}};
-            const auto from =
-                averaged && denoiser != kRaw ? crossing(*averaged, *fit) : std::optional<double>();
+            json row{{"denoiser", denoiser}, {"floor", fit->floor}, {"rate", fit->rate},
+                {"floor_is_measured", floor.has_value()}};
+            const auto from = averaged ? crossing(*averaged, *fit) : std::optional<double>();
             if (from && *from > 0) {
                 row["crossing_ms"] = *from;
                 row["crossing_relmse"] = averaged->rate / *from;

@@ -24,24 +24,26 @@ double floor_alone(const std::vector<TimedError>& points)
     return sum / squares;
 }
 
-double rate_alone(const std::vector<TimedError>& points)
+/// Minimises sum ((floor + rate v' - error) / error)^2 with v' = 1 / t.
+double rate_above(const std::vector<TimedError>& points, double floor)
 {
     double sum = 0;
     double squares = 0;
     for (const TimedError& point : points) {
         const double v = 1 / (point.ms * point.error);
-        sum += v;
+        sum += v * (1 - floor / point.error);
         squares += v * v;
     }
-    return sum / squares;
+    return std::max(0.0, sum / squares);
 }
 
 }  // namespace
 
-std::optional<ErrorFit> fit_error(const std::vector<TimedError>& points, bool unbiased)
+std::optional<ErrorFit> fit_error(
+    const std::vector<TimedError>& points, std::optional<double> floor)
 {
-    if (unbiased && !points.empty())
-        return ErrorFit{0, rate_alone(points)};
+    if (floor && !points.empty())
+        return ErrorFit{*floor, rate_above(points, *floor)};
     if (points.size() < 2 || !at_different_times(points))
         return std::nullopt;
     // Minimises sum (u b^2 + v c - 1)^2 with u = 1 / error, v = 1 / (t error).
@@ -58,7 +60,7 @@ std::optional<ErrorFit> fit_error(const std::vector<TimedError>& points, bool un
     const double determinant = uu * vv - uv * uv;  // > 0: the times differ
     const ErrorFit fit{(u1 * vv - v1 * uv) / determinant, (v1 * uu - u1 * uv) / determinant};
     if (!(fit.floor >= 0))
-        return ErrorFit{0, rate_alone(points)};
+        return ErrorFit{0, rate_above(points, 0)};
     if (!(fit.rate >= 0))
         return ErrorFit{floor_alone(points), 0};
     return fit;

@@ -14,9 +14,11 @@ struct ErrorFit {
     double rate = 0;  ///< c [error * ms], >= 0
 };
 
-/// Least squares of the relative deviations, floor and rate not below 0; nothing for less than two
-/// points at different times. With `unbiased` the floor is 0 and one point is enough.
-std::optional<ErrorFit> fit_error(const std::vector<TimedError>& points, bool unbiased = false);
+/// Least squares of the relative deviations, floor and rate not below 0. With a `floor` that is
+/// known (0: unbiased; a bias that was measured) the rate alone is fitted, and one point is enough;
+/// else two at different times are needed. Nothing for fewer.
+std::optional<ErrorFit> fit_error(
+    const std::vector<TimedError>& points, std::optional<double> floor = {});
 
 /// Slope of log(error) over log(time) by least squares; nothing for less than two points at
 /// different times.

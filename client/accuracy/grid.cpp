@@ -24,8 +24,9 @@ Ladders ladders_of(GridSize size)
 {
     switch (size) {
     case GridSize::kTiny: return {{1, 4, 16}, {1, 4}, {2}, {8}, {0.5}, {}, {}};
+    case GridSize::kClassic: return {{1, 4, 16, 32}, {1}, {}, {}, {}, {}, {}};
     case GridSize::kQuick:
-        return {{1, 2, 4, 8, 16, 32}, {1, 2, 4, 8}, {0, 2, 3}, {1, 8}, {0.5}, {1, 2}, {3}};
+        return {{1, 2, 4, 8, 16, 32}, {1, 2, 4}, {0, 2, 3}, {1, 8}, {0.5}, {1, 2}, {3}};
     case GridSize::kNormal: break;
     }
     return {{1, 2, 4, 8, 16, 32, 64, 128}, {1, 2, 4, 8, 16, 32}, {0, 1, 2, 3, 4, 6},
@@ -93,6 +94,7 @@ class GridBuilder {
 public:
     GridBuilder(const json& described, GridSize size)
         : server_(described)
+        , size_(size)
         , ladders_(ladders_of(size))
     {
         for (const char* key : {"denoiser", "samples_per_pixel", "max_depth"})
@@ -129,15 +131,22 @@ public:
             add({{"atrous_iterations", iterations}});
         for (const int frames : ladders_.histories)
             add({{"history_max", frames}});
+        if (size_ != GridSize::kClassic)
+            add_alternatives();
+        return std::move(grid_);
+    }
+
+private:
+    /// Paths, lights and resolutions.
+    void add_alternatives()
+    {
         add_depths();
         for (const std::string& denoiser : raw_)
             add({{"denoiser", denoiser}, {"light_sampling", false}});
         add({{"light_sampling", false}});
         add_scales_and_mixes();
-        return std::move(grid_);
     }
 
-private:
     void add(const Settings& changes)
     {
         SweepPoint point{.label = "", .settings = grid_.base};
@@ -180,6 +189,7 @@ private:
     }
 
     Described server_;
+    GridSize size_;
     Ladders ladders_;
     std::vector<std::string> raw_, filters_;
     Grid grid_;
@@ -224,7 +234,8 @@ Grid make_grid(const json& described, GridSize size)
 std::vector<int> averaged_frames(GridSize size)
 {
     switch (size) {
-    case GridSize::kTiny: return {1, 4, 16};
+    case GridSize::kTiny:
+    case GridSize::kClassic: return {1, 4, 16};
     case GridSize::kQuick: return {1, 2, 4, 8, 16, 32, 64};
     case GridSize::kNormal: break;
     }

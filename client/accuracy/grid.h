@@ -14,7 +14,8 @@ constexpr const char* kAveraging = "accumulate";
 /// Drawn by leaving the samples as they are.
 constexpr const char* kRaw = "none";
 
-enum class GridSize : std::uint8_t { kTiny, kQuick, kNormal };
+/// Classic: raw samples against one filtered sample, and nothing else.
+enum class GridSize : std::uint8_t { kTiny, kClassic, kQuick, kNormal };
 
 struct SweepPoint {
     std::string label;  ///< "svgf, 2 samples, resolution 0.5"

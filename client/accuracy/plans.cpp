@@ -15,12 +15,13 @@ struct Effort {
     int history, flip_seeds, rounds, response_seeds, still_frames, after, effect_frames;
 };
 
-/// With svgf_alpha at 0.2, 16 frames leave 0.8^16 = 3 % of the first, 32 frames 0.1 %.
+/// With svgf_alpha at 0.2, 12 frames leave 0.8^12 = 7 % of the first, 32 frames 0.1 %.
 Effort effort_of(GridSize grid)
 {
     switch (grid) {
     case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 4};
-    case GridSize::kQuick: return {16, 2, 4, 2, 32, 24, 8};
+    case GridSize::kClassic:
+    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 8};
     case GridSize::kNormal: break;
     }
     return {32, 3, 16, 4, 64, 32, 24};

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <fstream>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <unistd.h>
 
@@ -50,9 +51,9 @@ private:
 
 GridSize grid_of(const Options& options)
 {
-    if (options.quick || options.grid == "quick")
-        return GridSize::kQuick;
-    return options.grid == "tiny" ? GridSize::kTiny : GridSize::kNormal;
+    static const std::map<std::string, GridSize> grids{{"normal", GridSize::kNormal},
+        {"quick", GridSize::kQuick}, {"classic", GridSize::kClassic}, {"tiny", GridSize::kTiny}};
+    return grids.at(options.quick ? "quick" : options.grid);
 }
 
 /// Tells one build of the private server from the next; a server that runs already says no more
@@ -128,8 +129,11 @@ Command add_accuracy(CLI::App& farlight)
         ->required();
     auto* quick = app->add_flag("--quick", options->quick,
         "fewer points at 160x90: two minutes for a simple scene on two cores");
-    app->add_option("--grid", options->grid, "how many points: normal, quick or tiny")
-        ->check(CLI::IsMember({"normal", "quick", "tiny"}))
+    app->add_option("--grid", options->grid,
+           "which points: normal; quick, fewer; classic, raw samples against one filtered; tiny, "
+           "for "
+           "tests")
+        ->check(CLI::IsMember({"normal", "quick", "classic", "tiny"}))
         ->capture_default_str()
         ->excludes(quick);
     app->add_option("--seeds", options->extent.seeds, "frames a point, each with a seed of its own")

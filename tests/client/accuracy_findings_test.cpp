@@ -74,11 +74,18 @@ TEST(Findings, FrontierAscendsInTimeAndHoldsNoDominatedPoint)
     EXPECT_EQ(points[0]["settings"]["denoiser"], "none");
 }
 
-TEST(Findings, APointThatIsNotMeasurablyFasterIsLeftOut)
+TEST(Findings, LightLeftToChanceIsNoChoice)
 {
     Measurements measured = invented();
-    measured.points.push_back(point("none", 3, 0.995, 5));  // a little faster than raw 1, far worse
-    EXPECT_EQ(findings_of(measured)["frontier"]["points"][0]["label"], "none, 1");
+    measured.base["light_sampling"] = true;
+    for (MeasuredPoint& each : measured.points)
+        each.point.settings["light_sampling"] = true;
+    measured.points.push_back(point("none", 1, 0.5, 5));
+    measured.points.back().point.settings["light_sampling"] = false;
+    const json findings = findings_of(measured);
+    EXPECT_EQ(findings["frontier"]["points"][0]["label"], "none, 1");
+    EXPECT_EQ(findings["frontier"]["points"][0]["ms"], 1.0);
+    EXPECT_EQ(findings["techniques"][1]["name"], "light sampling, raw");
 }
 
 TEST(Findings, APointLostInTheReferencesNoiseIsOnNoFrontier)
@@ -110,6 +117,16 @@ TEST(Findings, FitsCrossWhereAveragingIsBetter)
     ASSERT_NE(svgf, fits.end());
     EXPECT_NEAR((*svgf)["floor"].get<double>(), kBias, 1e-12);
     EXPECT_NEAR((*svgf)["crossing_ms"].get<double>(), (0.1 - 0.003) / kBias, 1e-6);
+    EXPECT_FALSE((*svgf)["floor_is_measured"].get<bool>());
+}
+
+TEST(Findings, ABiasThatSeedsShowIsTheFloor)
+{
+    Measurements measured = invented();
+    measured.points.back().error["bias"] = exactly(0.0008);
+    const json fits = findings_of(measured)["fits"];
+    EXPECT_EQ(fits[0]["floor"], 0.0008);
+    EXPECT_TRUE(fits[0]["floor_is_measured"].get<bool>());
 }
 
 TEST(Findings, PassSumsAreCheckedAgainstWholeFrames)

@@ -109,15 +109,24 @@ TEST(Fit, NeitherFloorNorRateIsNegative)
     EXPECT_LT(rising->floor, 0.2);
 }
 
+TEST(Fit, AKnownFloorLeavesTheRate)
+{
+    const auto fit = fit_error(points_on(0.02, 0.5), 0.02);
+    ASSERT_TRUE(fit);
+    EXPECT_EQ(fit->floor, 0.02);
+    EXPECT_THAT(fit->rate, DoubleNear(0.5, 1e-12));
+    EXPECT_EQ(fit_error({{1, 0.1}}, 0.2)->rate, 0);  // all below the floor
+}
+
 TEST(Fit, UnbiasedNeedsOnePoint)
 {
-    const auto fit = fit_error({{4, 0.5}}, true);
+    const auto fit = fit_error({{4, 0.5}}, 0);
     ASSERT_TRUE(fit);
     EXPECT_EQ(fit->floor, 0);
     EXPECT_DOUBLE_EQ(fit->rate, 2);
     EXPECT_FALSE(fit_error({{4, 0.5}}));
     EXPECT_FALSE(fit_error({{4, 0.5}, {4, 0.4}}));
-    EXPECT_FALSE(fit_error({}, true));
+    EXPECT_FALSE(fit_error({}, 0));
 }
 
 TEST(Fit, SlopeOfPowers)

@@ -49,7 +49,7 @@ function errorLegend(report, denoisers, withFits) {
     entries.push({ text: "frontier; what it beats is faded. Numbers are those of the price list", draw: line(COLORS.green, 4) });
     if (withFits) {
         entries.push({ text: "slope \u22121: half the error for twice the time", draw: line(COLORS.grey, 1.5, [2, 4]) });
-        entries.push({ text: "bias floor: what more samples do not remove", draw: line(COLORS.vermilion, 1.5, [8, 5]) });
+        entries.push({ text: "bias floor: bias\u00b2 at the denoiser's most samples", draw: line(COLORS.vermilion, 1.5, [8, 5]) });
     }
     return legend(entries);
 }

@@ -72,7 +72,7 @@ function drawAll(u, { markers, lines, verticals, horizontals, stars }) {
     context.rect(u.bbox.left, u.bbox.top, u.bbox.width, u.bbox.height);
     context.clip();
     context.font = `${12 * ratio}px system-ui, sans-serif`;
-    verticals.forEach((line) => drawVertical(u, context, ratio, line));
+    drawVerticals(u, context, ratio, verticals);
     horizontals.forEach((line) => drawHorizontal(u, context, ratio, line));
     lines.forEach((line) => drawLine(context, ratio, at, line));
     markers.forEach((marker) => drawWhiskers(context, ratio, at, marker));
@@ -91,18 +91,25 @@ function drawWords(context, ratio, text, x, y, color = "#222222") {
     context.fillText(text, x, y);
 }
 
-function drawVertical(u, context, ratio, { x, text }) {
-    const left = u.valToPos(x, "x", true);
-    context.setLineDash([2 * ratio, 4 * ratio]);
-    context.strokeStyle = "#999999";
-    context.lineWidth = ratio;
-    context.beginPath();
-    context.moveTo(left, u.bbox.top);
-    context.lineTo(left, u.bbox.top + u.bbox.height);
-    context.stroke();
-    context.setLineDash([]);
+/** Dotted lines; the word of one that stands too near the last one's is left out. */
+function drawVerticals(u, context, ratio, verticals) {
+    let free = 0;
     context.textAlign = "left";
-    drawWords(context, ratio, text, left + 3 * ratio, u.bbox.top + 13 * ratio, "#666666");
+    for (const { x, text } of [...verticals].sort((a, b) => a.x - b.x)) {
+        const left = u.valToPos(x, "x", true);
+        context.setLineDash([2 * ratio, 4 * ratio]);
+        context.strokeStyle = "#999999";
+        context.lineWidth = ratio;
+        context.beginPath();
+        context.moveTo(left, u.bbox.top);
+        context.lineTo(left, u.bbox.top + u.bbox.height);
+        context.stroke();
+        context.setLineDash([]);
+        if (left < free || left + context.measureText(text).width > u.bbox.left + u.bbox.width)
+            continue;
+        drawWords(context, ratio, text, left + 3 * ratio, u.bbox.top + 13 * ratio, "#666666");
+        free = left + context.measureText(text).width + 8 * ratio;
+    }
 }
 
 function drawHorizontal(u, context, ratio, { y, text, color }) {

@@ -40,7 +40,8 @@ function costSections(report) {
 }
 
 function techniqueSections(report) {
-    section("techniques", "What each technique costs and brings", techniqueTable(report));
+    section("techniques", "What each technique costs and brings", techniqueTable(report),
+        paragraph("Light left to chance is measured for this table alone: it is on no frontier."));
     const { effects } = report;
     const general = effects.general;
     section("effects", "What each effect of the scene costs and brings", effectTable(effects),
@@ -81,7 +82,7 @@ function methodSection(report) {
             ? `The sum of the passes differs from the whole frame by at most ${percent(check.worst)} (tolerance ${percent(check.tolerance)}, exceeded by ${check.beyond} of ${check.points} points).`
             : "The server does not tell the time of whole frames, so pass times could not be checked against them.",
         "Intervals of errors are 95 % studentised bootstrap over the seeds. Bias\u00b2 is the mean product of the deviations of different seeds, noise is the rest; what the reference's own noise adds is taken off both.",
-        `Fit of each denoiser over samples: error(t) = b\u00b2 + c / t; averaged frames: error(t) = ${number(averaging.rate)} ms / t. They cross at t* = (c_averaged \u2212 c) / b\u00b2.`,
+        `Fit of each denoiser over samples: error(t) = b\u00b2 + c / t, where b\u00b2 is the bias that the seeds show at its most samples, or is fitted too where they show none; averaged frames: error(t) = ${number(averaging.rate)} ms / t. They cross at t* = (c_averaged \u2212 c) / b\u00b2.`,
         `Raw samples: error falls with samples to the power ${number(slope.mse)} (MSE) and ${number(slope.relmse)} (relMSE); \u22121 is what theory asks for.`,
         "All pictures look through pixel middles, as moving ones do, the reference too. Frames smaller than the picture are enlarged bilinearly before they are compared.",
     ];
