@@ -2,7 +2,7 @@
 import { element } from "./dom.js";
 
 /* Colour scales, dark to bright, as the server's shaders draw them. */
-const HEAT = ["#000000", "#8b0000", "#e03000", "#ff9800", "#fff59a", "#ffffff"];
+const HEAT = ["#000000", "#ff0000", "#ffff00", "#ffffff"];
 const CIVIDIS = ["#00224e", "#424e6c", "#7c7b78", "#b9ac6b", "#fee837"];
 const MAGMA = ["#000004", "#51127c", "#b73779", "#fc8961", "#fcfdbf"];
 const GREY = ["#000000", "#ffffff"];
@@ -10,8 +10,8 @@ const GREY = ["#000000", "#ffffff"];
 /** What a button asks the setting `view` for. `scale`: its colours, what the ends stand for, and what is shown. */
 export const VIEWS = [
     { view: "final", name: "Picture" },
-    { view: "predicted_deviation", name: "Predicted deviation", scale: { colours: HEAT, ends: ["0", "1"], shows: "standard deviation of each pixel's noise, as a share of its brightness" } },
-    { view: "measured_error", name: "Measured error", scale: { colours: HEAT, ends: ["0", "1"], shows: "distance of each pixel from the reference, as a share of its brightness" } },
+    { view: "predicted_deviation", name: "Predicted deviation", scale: { colours: HEAT, ends: ["0", "0.5"], shows: "standard deviation of each pixel's noise, as a share of its brightness" } },
+    { view: "measured_error", name: "Measured error", scale: { colours: HEAT, ends: ["0", "0.5"], shows: "distance of each pixel from the reference, as a share of its brightness" } },
     { view: "flip", name: "FLIP", scale: { colours: MAGMA, ends: ["0", "1"], shows: "difference from the reference as eyes see it, twice a second" } },
     { view: "history_length", name: "History length", scale: { colours: CIVIDIS, ends: ["1", ({ history_max = "the longest" }) => String(history_max)], shows: "frames that each pixel remembers" } },
     { view: "variance", name: "Variance", scale: { colours: GREY, ends: ["0", "1"], shows: "variance that guides the filter, exposed like the picture" } },

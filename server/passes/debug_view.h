@@ -12,6 +12,10 @@ struct FrameBuffers {
     TextureHandle raw;  ///< Undenoised picture.
     Signals blended;  ///< SVGF: alpha holds the variance estimate.
     TextureHandle history_length;
+    TextureHandle denoised;  ///< The picture before it is refined; the raw one without a filter.
+    TextureHandle mean;  ///< Of a resting picture.
+    TextureHandle deviation;  ///< Predicted, of each pixel; only where the view shows it.
+    TextureHandle distance;  ///< Of each pixel of `denoised` from `mean`; likewise.
 };
 
 struct ViewScales {
@@ -19,6 +23,9 @@ struct ViewScales {
     float scene_radius;
     float history_max;
 };
+
+/// Share of a pixel's brightness that is shown white by views of errors.
+constexpr float kHottest = 0.5F;
 
 /// How one view is read, shown, and what counts as large in it.
 struct ViewRecipe {
@@ -65,13 +72,37 @@ inline ViewRecipe recipe_of(DebugView view, const FrameBuffers& b, const ViewSca
                 b.blended.indirect};
         case DebugView::kHistoryLength:
             return {b.history_length, "VIEW_RED", "SHOW_COUNT", scales.history_max};
+        case DebugView::kPredictedDeviation:
+            return {b.deviation, "VIEW_RED", "SHOW_HEAT", kHottest};
+        case DebugView::kMeasuredError: return {b.distance, "VIEW_RED", "SHOW_HEAT", kHottest};
         case DebugView::kFinal:
-        case DebugView::kSheet: break;
+        case DebugView::kSheet:
+        case DebugView::kWipe: break;
         }
         return {{}, nullptr, "SHOW_NORMAL", 1};
     }();
     return recipe.source.index < 0 ? ViewRecipe{{}, "VIEW_NOTHING", recipe.show_as, recipe.scale}
                                    : recipe;
+}
+
+/// The two sides of the wipe in one picture (rgba32f). While there is no mean, a frame's own
+/// samples are the mean of one.
+inline TextureHandle add_wipe(
+    FrameGraph& graph, const FrameBuffers& buffers, const RenderSettings& settings)
+{
+    const auto shown = [&](WipeSide side) {
+        const TextureHandle picture = side == WipeSide::kDenoised ? buffers.denoised
+            : side == WipeSide::kAccumulated                      ? buffers.mean
+                                                                  : buffers.raw;
+        return picture.index < 0 ? buffers.raw : picture;
+    };
+    const TextureHandle wipe = graph.create("wipe", GL_RGBA32F);
+    graph.add_pass("wipe", "debug_view/wipe.comp")
+        .read("in_left", shown(settings.wipe_left))
+        .read("in_right", shown(settings.wipe_right))
+        .write("out_radiance", wipe)
+        .constant("wipe_position", settings.wipe_position);
+    return wipe;
 }
 
 /// The view's numbers (rgba32f).

@@ -72,6 +72,17 @@ inline TextureHandle add_deviation(FrameGraph& graph, const FrameInputs& inputs,
     return deviation;
 }
 
+/// Each pixel's distance from the mean relative to it (r32f).
+inline TextureHandle add_distance(FrameGraph& graph, TextureHandle picture, TextureHandle mean)
+{
+    const TextureHandle distance = graph.create("error_estimate.distance", GL_R32F);
+    graph.add_pass("measured distance", "error_estimate/distance.comp")
+        .read("in_picture", picture)
+        .read("in_mean", mean)
+        .write("out_distance", distance);
+    return distance;
+}
+
 /// `picture`: the denoised one, if there is one and a reference to measure it against.
 inline void add_measure(FrameGraph& graph, const Mean& mean, TextureHandle picture)
 {

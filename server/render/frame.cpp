@@ -35,6 +35,42 @@ bool is_lit(const FramePlan& plan)
     return plan.scatters && plan.settings.max_depth > 1;
 }
 
+bool shows_raw(DebugView view)
+{
+    return view == DebugView::kRawRadiance || view == DebugView::kSheet || view == DebugView::kWipe;
+}
+
+/// From samples to the denoised picture, and what it says of its error.
+void add_denoiser(
+    FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan, FrameBuffers& buffers)
+{
+    const SvgfOutput svgf = add_svgf(graph, inputs, buffers.gbuffer, buffers.noisy, plan.settings);
+    buffers.blended = svgf.blended;
+    buffers.history_length = svgf.history_length;
+    buffers.denoised = add_composite(graph, "composite", inputs, buffers.gbuffer, svgf.filtered);
+    if (!plan.settings.error_estimate)
+        return;
+    add_predict(graph, inputs, buffers.gbuffer, buffers.noisy, svgf.filtered,
+        {buffers.denoised, plan.frame_index});
+    if (plan.settings.view == DebugView::kPredictedDeviation)
+        buffers.deviation =
+            add_deviation(graph, inputs, buffers.gbuffer, svgf.filtered, buffers.denoised);
+}
+
+/// The running mean, and the picture that turns into it.
+TextureHandle add_mean(FrameGraph& graph, const FramePlan& plan, FrameBuffers& buffers)
+{
+    const Mean mean = add_accumulate(graph, buffers.raw, plan.mean_frames, plan.reference);
+    buffers.mean = mean.radiance;
+    if (plan.measures)
+        add_measure(graph, mean, plan.measures_reference ? buffers.denoised : TextureHandle{});
+    if (plan.settings.view == DebugView::kMeasuredError && is_denoised(plan))
+        buffers.distance = add_distance(graph, buffers.denoised, mean.radiance);
+    return is_denoised(plan)
+        ? add_refine(graph, buffers.denoised, mean.radiance, static_cast<float>(mean_weight(plan)))
+        : mean.radiance;
+}
+
 }  // namespace
 
 bool is_denoised(const FramePlan& plan)
@@ -70,37 +106,23 @@ std::vector<ActiveEffect> effects_by_settings(const FramePlan& plan)
 TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan)
 {
     const RenderSettings& settings = plan.settings;
-    const bool lit = is_lit(plan);
     const bool denoises = is_denoised(plan);
-    const bool averages = is_averaged(plan);
-    const bool shows_raw =
-        settings.view == DebugView::kRawRadiance || settings.view == DebugView::kSheet;
     FrameBuffers buffers;
     buffers.gbuffer = add_gbuffer(graph, inputs, denoises);
-    if (lit)
+    if (is_lit(plan))
         buffers.noisy = add_path_trace(graph, inputs, buffers.gbuffer, settings);
-    if (!denoises || averages || shows_raw)
+    if (!denoises || is_averaged(plan) || shows_raw(settings.view))
         buffers.raw = add_composite(graph, "composite raw", inputs, buffers.gbuffer, buffers.noisy);
+    buffers.denoised = buffers.raw;
+    if (denoises)
+        add_denoiser(graph, inputs, plan, buffers);
+    const TextureHandle radiance =
+        is_averaged(plan) ? add_mean(graph, plan, buffers) : buffers.denoised;
 
-    TextureHandle radiance = buffers.raw;
-    if (denoises) {
-        const SvgfOutput svgf = add_svgf(graph, inputs, buffers.gbuffer, buffers.noisy, settings);
-        buffers.blended = svgf.blended;
-        buffers.history_length = svgf.history_length;
-        radiance = add_composite(graph, "composite", inputs, buffers.gbuffer, svgf.filtered);
-        if (settings.error_estimate)
-            add_predict(graph, inputs, buffers.gbuffer, buffers.noisy, svgf.filtered,
-                {radiance, plan.frame_index});
+    if (settings.view == DebugView::kWipe) {
+        const TextureHandle wipe = add_wipe(graph, buffers, settings);
+        return plan.linear_output ? wipe : add_tonemap(graph, wipe, settings);
     }
-    if (averages) {
-        const Mean mean = add_accumulate(graph, buffers.raw, plan.mean_frames, plan.reference);
-        if (plan.measures)
-            add_measure(graph, mean, plan.measures_reference ? radiance : TextureHandle{});
-        radiance = denoises
-            ? add_refine(graph, radiance, mean.radiance, static_cast<float>(mean_weight(plan)))
-            : mean.radiance;
-    }
-
     if (const auto debug = add_debug_view(graph, buffers, plan))
         return *debug;
     return plan.linear_output ? radiance : add_tonemap(graph, radiance, settings);

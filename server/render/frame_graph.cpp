@@ -177,6 +177,9 @@ void FrameGraph::run(const Pass& pass, int pass_index)
         } else {
             read_.push_back(resource.texture->id());
         }
+    }
+    for (const Pass::Use& use : pass.uses) {  // a pass may read one texture by two names
+        Resource& resource = resources_[static_cast<std::size_t>(use.texture.index)];
         if (resource.transient && !resource.kept && resource.last_pass == pass_index
             && resource.texture != nullptr)
             pool_.push_back({std::move(resource.texture)});

@@ -51,7 +51,12 @@ enum class DebugView : std::uint8_t {
     kMotion,
     kVariance,
     kHistoryLength,
+    kPredictedDeviation,
+    kMeasuredError,
+    kWipe,  ///< Two states of the picture beside each other.
 };
+/// What a side of the wipe shows.
+enum class WipeSide : std::uint8_t { kRaw, kDenoised, kAccumulated };
 
 /// The wire's word for each value, in declaration order.
 constexpr std::string_view kDenoiserNames[] = {"none", "accumulate", "svgf"};
@@ -59,7 +64,8 @@ constexpr std::string_view kTonemapNames[] = {"aces", "linear"};
 constexpr std::string_view kDebugViewNames[] = {"final", "sheet", "raw_radiance", "direct",
     "indirect", "specular", "scattered", "albedo", "emission", "depth", "depth_gradient",
     "position", "geometric_normal", "shading_normal", "object_id", "material_id", "motion",
-    "variance", "history_length"};
+    "variance", "history_length", "predicted_deviation", "measured_error", "wipe"};
+constexpr std::string_view kWipeSideNames[] = {"raw", "denoised", "accumulated"};
 
 struct RenderSettings {
     Denoiser denoiser = Denoiser::kSvgf;
@@ -98,6 +104,9 @@ struct RenderSettings {
     float exposure = 1;
     Tonemap tonemap = Tonemap::kAces;
     DebugView view = DebugView::kFinal;
+    WipeSide wipe_left = WipeSide::kRaw;
+    WipeSide wipe_right = WipeSide::kDenoised;
+    float wipe_position = 0.5F;
     int jpeg_quality = 80;
 
     bool operator==(const RenderSettings&) const = default;
@@ -162,6 +171,12 @@ struct RenderSettings {
         visit(s.exposure, "exposure", RealRange{0, 1e6}, "linear scale before tone mapping");
         visit(s.tonemap, "tonemap", kTonemapNames, "curve from scene-linear to display");
         visit(s.view, "view", kDebugViewNames, "the finished picture or a buffer behind it");
+        visit(s.wipe_left, "wipe_left", kWipeSideNames,
+            "left side of the view `wipe`: this frame's samples, the denoised picture, or the mean "
+            "of a resting one");
+        visit(s.wipe_right, "wipe_right", kWipeSideNames, "likewise its right side");
+        visit(s.wipe_position, "wipe_position", RealRange{0, 1},
+            "share of the width that is its left side");
         visit(s.jpeg_quality, "jpeg_quality", IntRange{1, 100}, "quality of moving pictures");
     }
 };

@@ -6,7 +6,7 @@
 //   SHOW_RADIANCE  exposure and tone curve, as the picture    SHOW_NORMAL    -1..1 to 0..1
 //   SHOW_COUNT     0..value_scale, dark blue to yellow        SHOW_ID        a colour of its own for each number
 //   SHOW_MOTION    direction by hue, length by brightness     SHOW_DISTANCE  near bright, far dark
-//   SHOW_FRACTION  position within cells of value_scale
+//   SHOW_FRACTION  position within cells of value_scale       SHOW_HEAT      0..value_scale, black, red, yellow, white
 #version 450
 #include "lib/frame.glsl"
 #include "lib/display.glsl"
@@ -30,6 +30,8 @@ vec3 cividis(float x)
     return mix(c[i], c[i + 1], s - float(i));
 }
 
+vec3 heat(float x) { return clamp(vec3(3.0 * x, 3.0 * x - 1.0, 3.0 * x - 2.0), 0.0, 1.0); }
+
 vec3 hue(float turns) { return clamp(abs(fract(turns + vec3(0.0, 2.0, 1.0) / 3.0) * 6.0 - 3.0) - 1.0, 0.0, 1.0); }
 
 vec3 color_of(vec3 value)
@@ -40,6 +42,8 @@ vec3 color_of(vec3 value)
     return value * 0.5 + 0.5;
 #elif defined(SHOW_COUNT)
     return cividis(value.x / value_scale);
+#elif defined(SHOW_HEAT)
+    return heat(value.x / value_scale);
 #elif defined(SHOW_ID)
     return vec3(pcg4d(uvec4(uint(value.x) + 1u, 7u, 11u, 13u)).xyz >> 24u) / 255.0 * 0.8 + 0.2;
 #elif defined(SHOW_MOTION)

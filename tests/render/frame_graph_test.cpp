@@ -137,6 +137,30 @@ TEST_F(FrameGraphTest, HistoryIsLastFramesCurrent)
     }
 }
 
+TEST_F(FrameGraphTest, APassMayReadOneTextureByTwoNames)
+{
+    add_shader_file("tests/add_both", R"(#version 450
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D in_a;
+uniform sampler2D in_b;
+uniform writeonly image2D out_value;
+void main()
+{
+    const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
+    imageStore(out_value, px, texelFetch(in_a, px, 0) + texelFetch(in_b, px, 0));
+}
+)");
+    const TextureHandle one = filled(3);
+    const TextureHandle sum = graph.create("sum", GL_RGBA32F);
+    graph.add_pass("both", "tests/add_both")
+        .read("in_a", one)
+        .read("in_b", one)
+        .write("out_value", sum);
+    graph.keep(sum);
+    graph.execute();
+    EXPECT_EQ(value_of(sum), 6);
+}
+
 TEST_F(FrameGraphTest, HistoryIsInvalidAfterAFrameThatDidNotWriteItAndWhenForgotten)
 {
     const auto write = [&](Extent extent) {

@@ -105,11 +105,11 @@ class SettingsReachTheImage : public GlTest { };
 /// The test that would have caught a setting which reaches no shader. Those that act outside the
 /// picture are named: error_estimate acts on what is said of it, jpeg_quality in the encoder,
 /// still_samples on when the still is final, effects on the time that a picture takes, play, time
-/// and time_step on which moment is drawn.
+/// and time_step on which moment is drawn, wipe_* on a view of their own.
 TEST_F(SettingsReachTheImage, EverySettingChangesTheImage)
 {
-    const std::set<std::string> elsewhere{
-        "effects", "error_estimate", "jpeg_quality", "play", "still_samples", "time", "time_step"};
+    const std::set<std::string> elsewhere{"effects", "error_estimate", "jpeg_quality", "play",
+        "still_samples", "time", "time_step", "wipe_left", "wipe_position", "wipe_right"};
     Scene scene = room_with(bumpy_sphere(24, 12));
     const TestScene on_device(scene);
     const auto render = [&](const RenderSettings& settings, bool refine) {
@@ -174,6 +174,34 @@ TEST_F(SettingsReachTheImage, EveryDebugViewDraws)
                 EXPECT_EQ(frame.image.bytes.size(), 17U * 9 * bytes_per_pixel(format));
                 EXPECT_EQ(frame.nonfinite_count, 0U);
             }
+}
+
+TEST_F(SettingsReachTheImage, TheWipeShowsTwoStatesOfThePicture)
+{
+    Scene scene = room_with(bumpy_sphere(24, 12));
+    const TestScene on_device(scene);
+    const auto render = [&](const std::vector<const char*>& settings) {
+        View view(on_device.shared);
+        RenderRequest request = linear_request(scene, {16, 9}, {});
+        request.refine = true;
+        for (const char* setting : settings)
+            set_setting(request.settings, setting);
+        Image image;
+        for (int i = 0; i < 3; ++i)
+            image = view.render(request).image;
+        return image;
+    };
+    const Image raw = render({"view=raw_radiance"});
+    const Image mean = render({"denoiser=accumulate"});
+    const Image denoised = render({"view=wipe", "wipe_right=denoised", "wipe_position=0"});
+    const Image wiped =
+        render({"view=wipe", "wipe_left=raw", "wipe_right=accumulated", "wipe_position=0.25"});
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 16; ++x)
+            EXPECT_EQ(pixel(wiped, x, y), pixel(x < 4 ? raw : mean, x, y)) << x << " " << y;
+    EXPECT_NE(denoised.bytes, raw.bytes);
+    EXPECT_NE(denoised.bytes, mean.bytes);
+    EXPECT_EQ(render({"view=wipe", "wipe_left=denoised", "wipe_position=1"}).bytes, denoised.bytes);
 }
 
 /// A buffer that the frame does not have reads zero, never another picture.
