@@ -6,7 +6,7 @@ export const ORIGINS = { report: "from a report", learnt: "learnt while running"
 
 /** The message with unknown errors as NaN. `rung` is what frames call a point; one that has no time has no place here. */
 export function frontierOf({ source, points, reason = "" }) {
-    const known = points.map(({ label, ms, error = NaN, lower = error, upper = error }, i) => ({ rung: i + 1, label, ms, error, lower, upper }));
+    const known = points.map(({ label, ms, error = NaN, lower = NaN, upper = NaN }, i) => ({ rung: i + 1, label, ms, error, lower, upper }));
     return { source, reason, points: known.filter(({ ms }) => ms > 0) };
 }
 

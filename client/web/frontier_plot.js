@@ -118,7 +118,7 @@ export class FrontierPlot {
         context.strokeStyle = BLUE;
         context.lineWidth = 1.5 * ratio;
         context.beginPath();
-        for (const point of this.#points)
+        for (const point of this.#points.filter(({ lower, upper }) => lower < upper))
             this.#traceWhisker(context, at, ratio, point);
         for (const { ms } of this.#untold) { // its error is not known yet: a mark on the axis
             const x = at({ ms, error: this.#y[0] })[0];

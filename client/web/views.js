@@ -13,7 +13,7 @@ export const VIEWS = [
     { view: "predicted_deviation", name: "Predicted deviation", scale: { colours: HEAT, ends: ["0", "0.5"], shows: "standard deviation of each pixel's noise, as a share of its brightness" } },
     { view: "measured_error", name: "Measured error", scale: { colours: HEAT, ends: ["0", "0.5"], shows: "distance of each pixel from the reference, as a share of its brightness" } },
     { view: "flip", name: "FLIP", scale: { colours: MAGMA, ends: ["0", "1"], shows: "difference from the reference as eyes see it, twice a second" } },
-    { view: "history_length", name: "History length", scale: { colours: CIVIDIS, ends: ["1", ({ history_max = "the longest" }) => String(history_max)], shows: "frames that each pixel remembers" } },
+    { view: "history_length", name: "History length", scale: { colours: CIVIDIS, ends: ["0", ({ history_max = "the longest" }) => String(history_max)], shows: "frames that each pixel remembers" } },
     { view: "variance", name: "Variance", scale: { colours: GREY, ends: ["0", "1"], shows: "variance that guides the filter, exposed like the picture" } },
     { view: "wipe", name: "Split" },
 ];

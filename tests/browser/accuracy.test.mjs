@@ -37,8 +37,7 @@ test("a frontier knows its cheapest, its finest, and what is between", () => {
 test("points keep the number that frames call them by, unknown errors are NaN", () => {
     const { points, reason } = frontierOf({ source: "learnt", points: [{ label: "a", ms: 0 }, { label: "b", ms: 3, error: 1 }, { label: "c", ms: 4 }] });
     assert.deepEqual(points.map(({ rung }) => rung), [2, 3]);
-    assert.deepEqual([points[0].lower, points[0].upper], [1, 1]);
-    assert.ok(Number.isNaN(points[1].error) && Number.isNaN(points[1].upper));
+    assert.ok(Number.isNaN(points[0].lower) && Number.isNaN(points[1].error) && Number.isNaN(points[1].upper));
     assert.equal(reason, "");
 });
 

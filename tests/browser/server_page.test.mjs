@@ -119,6 +119,27 @@ test("errors are predicted while the camera moves and measured when it rests", a
     assert.deepEqual(page.complaints, []);
 });
 
+test("overlays are a press away, and a split picture is raw on the left of its divider", async () => {
+    for (const view of ["predicted_deviation", "measured_error", "wipe"]) {
+        await page.locator(`#views [value=${view}]`).check();
+        await until(page, (wanted) => window.farlight.settings.view === wanted, view);
+        await untilFrames(page, 3);
+        await screenshot(page, `server_${view}`);
+    }
+    const rough = async (x) => {
+        const bytes = await pixels(page, { x, y: 0.3, width: 0.1, height: 0.2 });
+        return bytes.slice(4).reduce((sum, value, i) => sum + Math.abs(value - bytes[i]), 0) / bytes.length;
+    };
+    assert.ok(await rough(0.38) > 2 * await rough(0.52), `${await rough(0.38)} left, ${await rough(0.52)} right of the middle`);
+    await drag(page, [0.5, 0.5], [0.75, 0.5]);
+    await until(page, () => Math.abs(window.farlight.settings.wipe_position - 0.75) < 0.01);
+    await untilFrames(page, 3);
+    assert.ok(await rough(0.52) > 10, `${await rough(0.52)} left of the divider at three quarters`);
+    await page.locator("#views [value=final]").check();
+    await until(page, () => window.farlight.settings.view === "final");
+    assert.deepEqual(page.complaints, []);
+});
+
 test("a slider changes a setting on the server", async () => {
     await page.locator("summary", { hasText: "All other settings" }).click();
     const slider = page.locator("#setting-exposure");
