@@ -52,10 +52,13 @@ bool DrawPlan::move_camera(const CameraPose& pose, std::uint32_t sequence, bool 
 
 void DrawPlan::set_settings(const RenderSettings& settings, Time now)
 {
+    const bool at_rest =
+        planned_version_ == version_ ? unchanged_frames_ >= kFramesUntilRest : rests_on_;
     time_ = time_at(now);
     clock_start_ = now;
     wishes_.settings = settings;
     change(now);
+    rests_on_ = at_rest;
 }
 
 void DrawPlan::go_to_time(Time now)
@@ -96,6 +99,7 @@ std::optional<Draw> DrawPlan::next()
     }
     if (planned_version_ != version_) {
         Draw draw = draw_of_wishes(changed_);
+        draw.request.refine = rests_on_ && !plays();
         plan_instead(draw);
         return draw;
     }
@@ -113,13 +117,14 @@ std::optional<Draw> DrawPlan::newer_than(const Draw& stale) const
         return std::nullopt;
     Draw newer = draw_of_wishes(changed_);
     newer.request.reset_history |= stale.request.reset_history;
+    newer.request.refine = rests_on_ && !plays();
     return newer;
 }
 
 void DrawPlan::plan_instead(const Draw& newer)
 {
     planned_version_ = newer.version;
-    unchanged_frames_ = 0;
+    unchanged_frames_ = newer.request.refine ? kFramesUntilRest : 0;
     wishes_.reset_history = false;
 }
 
@@ -144,6 +149,7 @@ void DrawPlan::change(Time now)
 {
     ++version_;
     changed_ = now;
+    rests_on_ = false;
 }
 
 Draw DrawPlan::draw_of_wishes(std::optional<Time> asked) const

@@ -1,7 +1,8 @@
 // DrawPlan: what one client wants drawn next. Pure logic: no threads, no clock, no sockets.
 //
 // Interactive: the newest camera wins; a resting picture is drawn again and again, refined, until
-// the renderer calls it converged, then nothing until something changes. Lockstep: one frame for
+// the renderer calls it converged, then nothing until something changes; settings may change
+// without stirring it. Lockstep: one frame for
 // each camera message, in order, none left out. A scene that moves follows the clock, in lockstep
 // the settings' step a frame, so that a recording can be repeated.
 #pragma once
@@ -98,6 +99,7 @@ private:
     std::uint64_t planned_version_ = 0;
     std::uint64_t final_version_ = 0;
     int unchanged_frames_ = 0;
+    bool rests_on_ = false;  ///< It rested, and only settings have changed since.
     Time changed_;
 
     std::deque<Draw> queue_;  ///< Lockstep.

@@ -50,6 +50,34 @@ TEST(DrawPlan, RefinesFromTheSecondFrameOfAnUnmovedCameraOn)
         EXPECT_EQ(plan.next()->request.refine, refine);
 }
 
+/// Looking at a resting picture in another way does not stir it; moving does.
+TEST(DrawPlan, ARestingPictureRestsOnWhenOnlySettingsChange)
+{
+    DrawPlan plan = make_plan(Mode::kInteractive);
+    RenderSettings settings = plan.wishes().settings;
+    const auto change = [&](float exposure) {
+        settings.exposure = exposure;
+        plan.set_settings(settings, kStart);
+    };
+    plan.next();
+    change(2);
+    EXPECT_FALSE(plan.next()->request.refine) << "it does not rest yet";
+    plan.next();
+    const Draw resting = *plan.next();
+    EXPECT_TRUE(resting.request.refine);
+    change(3);
+    change(4);
+    EXPECT_TRUE(plan.newer_than(resting)->request.refine);
+    EXPECT_TRUE(plan.next()->request.refine);
+    EXPECT_TRUE(plan.next()->request.refine);
+    change(5);
+    plan.move_camera(pose_at(1), 1, false, kStart);
+    change(6);
+    EXPECT_FALSE(plan.next()->request.refine);
+    EXPECT_FALSE(plan.next()->request.refine);
+    EXPECT_TRUE(plan.next()->request.refine);
+}
+
 TEST(DrawPlan, IsSilentAfterTheFinalPictureUntilSomethingChanges)
 {
     DrawPlan plan = make_plan(Mode::kInteractive);

@@ -123,11 +123,13 @@ TEST(Encoder, FullChromaKeepsThinColouredLines)
 TEST(Encoder, FillsInSizesAndKeepsWhatItWasGiven)
 {
     EncodeTask task{picture({64, 36}, PixelFormat::kRgb8), {}, 80};
+    task.image.full_extent = {128, 72};
     task.header.camera_sequence = 41;
     task.header.passes = {{"gbuffer", 1.5F}};
     const EncodedFrame frame = encode_frame(task);
     EXPECT_EQ(frame.header.width, 64);
-    EXPECT_EQ(frame.header.full_height, 36);
+    EXPECT_EQ(frame.header.height, 36);
+    EXPECT_EQ(frame.header.full_height, 72);
     EXPECT_EQ(frame.header.payload_size, frame.payload.size());
     EXPECT_EQ(frame.header.camera_sequence, 41U);
     EXPECT_EQ(frame.header.passes.size(), 1U);
