@@ -1,6 +1,7 @@
 // farlight bench: milliseconds a pass, and latency beyond what drawing and encoding take.
 #include "client/camera_path.h"
 #include "client/cli/bench_effects.h"
+#include "client/cli/bench_setting.h"
 #include "client/cli/command.h"
 #include "client/cli/target.h"
 #include "client/picture.h"
@@ -23,6 +24,7 @@ struct Options {
     bool json = false;
     bool effects = false;
     bool leave_one_in = false;
+    std::string turns;  ///< "KEY=A,B"
     std::vector<std::string> scenes;
 };
 
@@ -148,6 +150,8 @@ int run(const Options& options)
     if (options.effects || options.leave_one_in)
         return bench_effects(
             options.target, {options.scenes, options.frames, options.leave_one_in, options.json});
+    if (!options.turns.empty())
+        return bench_setting(options.target, options.turns, options.frames, options.json);
     if (!options.scenes.empty())
         throw std::invalid_argument("scenes after the options go with --effects");
     const Target target(options.target);
@@ -185,6 +189,8 @@ Command add_bench(CLI::App& farlight)
         "measure instead what it saves to compile only what a scene calls for");
     app->add_flag("--leave-one-in", options->leave_one_in,
         "with --effects: of the first scene also the cost of each effect that it lacks");
+    app->add_option("--turns", options->turns,
+        "KEY=A,B: measure instead what a setting costs, drawing with both values in turns");
     app->add_option(
         "scenes", options->scenes, "with --effects: scene files, a private server each");
     app->add_flag("--json", options->json, "print JSON");

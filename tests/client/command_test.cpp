@@ -176,5 +176,20 @@ TEST_F(CommandTest, BenchPrintsPassesAndLatency)
     EXPECT_GT(json["latency"]["whole_median_ms"], 0);
 }
 
+TEST_F(CommandTest, BenchTakesTurnsWithTwoValuesOfASetting)
+{
+    const Outcome json = farlight("bench --json --frames 3 --turns exposure=1,2" + url);
+    ASSERT_EQ(json.status, 0) << json.err;
+    const auto parsed = nlohmann::json::parse(json.out);
+    EXPECT_EQ(parsed["ratio"], 1.0);
+    EXPECT_EQ(parsed["values"][1]["value"], "2");
+    EXPECT_EQ(parsed["values"][1]["passes"][0]["median_ms"], 1.5);
+    EXPECT_THAT(farlight("bench --frames 3 --turns exposure=1,2" + url).out,
+        HasSubstr("2 / 1: 1.000 (1.000 to 1.000)"));
+    const Outcome wrong = farlight("bench --turns exposure=1" + url);
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("--turns exposure=1: expected KEY=A,B"));
+}
+
 }  // namespace
 }  // namespace farlight
