@@ -275,7 +275,8 @@ struct Frontier {
     static constexpr std::string_view kType = "frontier";
 
     FrontierSource source = FrontierSource::kLearnt;
-    std::vector<FrontierPoint> points;  ///< Ascending in `ms`.
+    std::vector<FrontierPoint> points;  ///< Ascending in `ms`, descending in error.
+    std::optional<std::string> reason;  ///< Why a report that the server has is not the source.
 
     bool operator==(const Frontier&) const = default;
 
@@ -283,6 +284,7 @@ struct Frontier {
     {
         visit("source", m.source, Rule{});
         visit("points", m.points, Rule{});
+        visit("reason", m.reason, Rule{});
     }
 };
 

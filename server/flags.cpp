@@ -48,6 +48,8 @@ void add_options(CLI::App& app, Flags& flags, Texts& texts)
     app.add_option("--set", settings,
            "key=value, a setting new clients start with, whatever the scene says; repeatable")
         ->allow_extra_args(false);
+    app.add_option("--frontier", flags.frontier,
+        "report of farlight accuracy (JSON): what clients' budgets choose among; absent: learnt");
     app.add_option("--allow-origin", flags.stream.allowed_origins,
            "also let pages of this origin connect, as https://example.org; repeatable, * for all")
         ->allow_extra_args(false);

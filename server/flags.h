@@ -15,6 +15,7 @@ constexpr int kWrongUsage = 2;
 
 struct Flags {
     std::filesystem::path scene;
+    std::filesystem::path frontier;  ///< A report; empty: none.
     RendererOptions renderer;
     StreamOptions stream;
     spdlog::level::level_enum log_level = spdlog::level::info;

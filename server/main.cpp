@@ -108,6 +108,10 @@ struct UsageError : std::runtime_error {
 
 int serve(const Flags& flags)
 {
+    StreamOptions stream = flags.stream;
+    if (!flags.frontier.empty())
+        stream.frontier =
+            std::make_shared<const FrontierReport>(read_frontier_report(flags.frontier));
     SceneDocument document = SceneDocument::load(flags.scene);
     Renderer renderer(document.scene(), flags.renderer);
     const auto [width, height] = renderer.description()->default_extent;
@@ -119,7 +123,7 @@ int serve(const Flags& flags)
         throw UsageError(
             "--set effects=" + to_text(flags.renderer.settings.effects) + ": " + *missing);
     RendererService service(renderer, std::move(document));
-    Listener listener(service, flags.stream);
+    Listener listener(service, stream);
     tell(*renderer.description(), flags);
     boost::asio::signal_set signals(listener.context(), SIGINT, SIGTERM);
     stop_on_signals(signals, listener);

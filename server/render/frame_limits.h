@@ -7,6 +7,11 @@
 
 namespace farlight {
 
+/// Longest a frame may be [path segments]: about a second of a fast GPU, minutes of llvmpipe. One
+/// client's frame is drawn in one go, so this also bounds how long the others wait, and keeps clear
+/// of drivers' watchdogs.
+constexpr double kMostSegments = 1e9;
+
 /// Why a request is too much for one frame, or nothing.
 std::string too_much_work(const RenderRequest& request);
 

@@ -100,6 +100,8 @@ struct RenderSettings {
     int refine_crossover = 64;
 
     float resolution_scale = 1;
+    float budget_ms = 0;
+    float target_error = 0;
 
     float exposure = 1;
     Tonemap tonemap = Tonemap::kAces;
@@ -114,6 +116,14 @@ struct RenderSettings {
     /// visit(member, name, allowed values, "[unit] meaning") for every setting, in the order shown
     /// to people.
     static void each_field(auto& s, auto&& visit)
+    {
+        each_drawing_field(s, visit);
+        each_showing_field(s, visit);
+    }
+
+private:
+    /// Samples, time and filter.
+    static void each_drawing_field(auto& s, auto& visit)
     {
         visit(s.denoiser, "denoiser", kDenoiserNames, "how samples become a picture");
         visit(s.samples_per_pixel, "samples_per_pixel", IntRange{1, 1024},
@@ -156,6 +166,11 @@ struct RenderSettings {
             "surface");
         visit(s.reproject_normal, "reproject_normal", RealRange{-1, 1},
             "least cosine between the normals of a pixel and its history");
+    }
+
+    /// Programs, costs, and what is made of the result.
+    static void each_showing_field(auto& s, auto& visit)
+    {
         visit(s.effects, "effects", TextRule{},
             "effects compiled in: auto (what the scene calls for), general (all), or a list of "
             "names with commas; less than the scene calls for is refused");
@@ -168,6 +183,12 @@ struct RenderSettings {
             "turns to the mean");
         visit(s.resolution_scale, "resolution_scale", RealRange{0.25, 1},
             "of width and height that are drawn; clients show the picture at its full size");
+        visit(s.budget_ms, "budget_ms", RealRange{0, 10000},
+            "[ms] a moving frame may take: the server chooses resolution, samples and filter "
+            "passes for the least error; 0: off; nothing in lockstep");
+        visit(s.target_error, "target_error", RealRange{0, 10},
+            "[relMSE] a picture may have: moving, the server chooses the cheapest for it, within "
+            "budget_ms; resting, it is final then; 0: off; nothing in lockstep");
         visit(s.exposure, "exposure", RealRange{0, 1e6}, "linear scale before tone mapping");
         visit(s.tonemap, "tonemap", kTonemapNames, "curve from scene-linear to display");
         visit(s.view, "view", kDebugViewNames, "the finished picture or a buffer behind it");

@@ -235,6 +235,11 @@ void Connection::carry_out(const effects::MessageRefused& refused)
             quoted(refused.problem));
 }
 
+void Connection::carry_out(const effects::Stepped& stepped)
+{
+    hub_.metrics.controller_stepped(stepped.times);
+}
+
 void Connection::carry_out(effects::Edit edit)
 {
     hub_.edit(weak_from_this(), std::move(edit.edit));

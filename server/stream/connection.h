@@ -78,6 +78,7 @@ private:
     void carry_out(const effects::Acknowledged& acknowledged);
     void carry_out(const effects::FrameDropped& dropped);
     void carry_out(const effects::MessageRefused& refused);
+    void carry_out(const effects::Stepped& stepped);
     void carry_out(effects::Edit edit);
     SlotSource::Events renderer_events();
 

@@ -154,7 +154,7 @@ void DrawPlan::change(Time now)
 
 Draw DrawPlan::draw_of_wishes(std::optional<Time> asked) const
 {
-    Draw draw{wishes_, format_, camera_sequence_, session_epoch_, version_, asked};
+    Draw draw{wishes_, format_, camera_sequence_, session_epoch_, version_, asked, false};
     draw.request.time = time_;
     if (mode_ == protocol::Mode::kInteractive && wishes_.settings.play)
         draw.request.clock_start = clock_start_;

@@ -39,6 +39,7 @@ struct Draw {
     std::uint32_t session_epoch = 0;
     std::uint64_t version = 0;  ///< Of the wishes it was made from.
     std::optional<Time> asked;  ///< Arrival of the message that asked for it; none when refining.
+    bool by_rung = false;  ///< A controller's rung lies over what the client asked for.
 };
 
 class DrawPlan {
@@ -51,6 +52,7 @@ public:
     protocol::Mode mode() const { return mode_; }
     const RenderRequest& wishes() const { return wishes_; }
     protocol::Format format() const { return format_; }
+    std::uint32_t session_epoch() const { return session_epoch_; }
 
     /// False: lockstep, and kLockstepQueue cameras wait already; the message is dropped.
     bool move_camera(const CameraPose& pose, std::uint32_t sequence, bool cut, Time now);

@@ -66,6 +66,19 @@ EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
     return task;
 }
 
+DrawnCost cost_of(const RenderedFrame& frame, const Draw& draw)
+{
+    const ErrorEstimate& predicted = frame.errors.predicted;
+    return {choice_of(draw.request.settings), frame.trace_ms, frame.denoise_ms,
+        {predicted.value, predicted.lower, predicted.upper, frame.errors.noise}};
+}
+
+bool is_final(const RenderedFrame& frame, const Draw& draw)
+{
+    const auto target = static_cast<double>(draw.request.settings.target_error);
+    return frame.converged || (target > 0 && frame.errors.predicted.value <= target);
+}
+
 protocol::Inspection inspection_of(const RenderedFrame& frame)
 {
     protocol::Inspection inspection;

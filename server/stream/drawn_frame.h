@@ -5,6 +5,7 @@
 #include "protocol/server_messages.h"
 #include "server/stream/draw_plan.h"
 #include "server/stream/encoder.h"
+#include "server/stream/rung_prices.h"
 
 #include <chrono>
 
@@ -14,6 +15,13 @@ namespace farlight {
 /// so lossless.
 EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
     std::chrono::steady_clock::time_point begun, bool final);
+
+/// What a controller learns from it.
+DrawnCost cost_of(const RenderedFrame& frame, const Draw& draw);
+
+/// A resting picture needs no more samples: it has those that were asked for, or an error as small
+/// as was asked for.
+bool is_final(const RenderedFrame& frame, const Draw& draw);
 
 /// What the frame was drawn with; the scene's part is left empty.
 protocol::Inspection inspection_of(const RenderedFrame& frame);

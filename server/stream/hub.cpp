@@ -28,6 +28,7 @@ std::shared_ptr<const SessionDefaults> defaults_of(
     defaults->request.extent = description.default_extent;
     defaults->max_dimension = description.max_dimension;
     defaults->deadlines = options.session;
+    defaults->frontier = options.frontier;
     return defaults;
 }
 

@@ -22,6 +22,7 @@ struct StreamOptions {
     std::vector<std::string> allowed_origins;  ///< Besides the server's own; "*" allows all.
     int max_clients = 64;
     bool edits = true;  ///< Clients may change the scene.
+    std::shared_ptr<const FrontierReport> frontier;  ///< For their budgets; null: it is learnt.
 
     // Deadlines; tests shorten them.
     SessionDeadlines session;

@@ -66,6 +66,9 @@ Metrics::Metrics(const RendererDescription& description)
     , messages_refused_(counters(registry_, "farlight_messages_refused_total",
           "Client messages that were garbage or had no effect")
                             .Add({}))
+    , controller_steps_(counters(registry_, "farlight_controller_steps_total",
+          "Times that another choice of settings was taken to keep a budget")
+                            .Add({}))
     , render_seconds_(seconds_histogram(
           registry_, "farlight_render_seconds", "Drawing one frame: tracing and denoising"))
     , encode_seconds_(seconds_histogram(registry_, "farlight_encode_seconds", "Encoding one frame"))
@@ -109,6 +112,11 @@ void Metrics::handshake_rejected(const std::string& reason)
 void Metrics::message_refused()
 {
     messages_refused_.Increment();
+}
+
+void Metrics::controller_stepped(std::uint64_t times)
+{
+    controller_steps_.Increment(static_cast<double>(times));
 }
 
 void Metrics::frame_drawn(double seconds)

@@ -22,6 +22,7 @@ public:
     void connection_closed(int code);
     void handshake_rejected(const std::string& reason);
     void message_refused();
+    void controller_stepped(std::uint64_t times);
     void frame_drawn(double seconds);
     void frame_encoded(protocol::Format format, double seconds);
     void frame_sent(std::size_t bytes);
@@ -41,6 +42,7 @@ private:
     prometheus::Counter& frames_sent_;
     prometheus::Counter& sent_bytes_;
     prometheus::Counter& messages_refused_;
+    prometheus::Counter& controller_steps_;
     prometheus::Histogram& render_seconds_;
     prometheus::Histogram& encode_seconds_;
     prometheus::Histogram& ack_rtt_seconds_;

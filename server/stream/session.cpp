@@ -1,11 +1,8 @@
-// Session: see the header. Messages first, then the way of a frame, then how a session ends.
+// Session: see the header. Messages, and how a session ends; the way of a frame is in
+// session_frames.cpp.
 #include "server/stream/session.h"
 
-#include "server/stream/drawn_frame.h"
 #include "server/stream/welcome.h"
-
-#include <algorithm>
-#include <cassert>
 
 namespace farlight {
 namespace {
@@ -13,9 +10,6 @@ namespace {
 using protocol::Error;
 using protocol::ErrorCode;
 using protocol::Mode;
-
-/// Frames of one client under way may hold this many bytes; one frame may always be under way.
-constexpr std::int64_t kMostBytesInFlight = 256LL << 20U;
 
 }  // namespace
 
@@ -73,6 +67,11 @@ void Session::on(const protocol::Hello& hello, Time now)
     welcome.max_in_flight = hello.max_in_flight;
     welcome.settings = describe_settings(request.settings, defaults_->request.settings);
     effects_.push_back(effects::Say{std::move(welcome)});
+    if (hello.mode == Mode::kInteractive) {
+        controller_.emplace(defaults_->frontier);
+        controller_->follow(request.settings, request.extent);
+        say_frontier(now);
+    }
 }
 
 void Session::on(const protocol::Camera& camera, Time now)
@@ -159,6 +158,8 @@ void Session::scene_changed(
     if (!plan_ || closed_)
         return;
     plan_->change_scene(now);
+    if (controller_)
+        controller_->change_scene();
     protocol::SceneChanged changed{{}, defaults_->welcome.scene, defaults_->welcome.effects};
     if (edit)
         changed.edit = edit->id;
@@ -224,114 +225,6 @@ void Session::say_state()
         {static_cast<std::uint32_t>(wishes.extent.width),
             static_cast<std::uint32_t>(wishes.extent.height)},
         plan_->format()}});
-}
-
-// ---------------------------------------------------------------- the way of a frame
-
-bool Session::may_start() const
-{
-    const Extent extent = plan_->wishes().extent;
-    const std::int64_t frame_bytes = static_cast<std::int64_t>(extent.width) * extent.height
-        * static_cast<std::int64_t>(bytes_per_pixel(plan_->wishes().format));
-    return pacing_->may_start()
-        && (pacing_->in_flight() == 0
-            || (pacing_->in_flight() + 1) * frame_bytes <= kMostBytesInFlight)
-        && (plan_->mode() == Mode::kLockstep || ready_.empty());
-}
-
-void Session::plan_drawing()
-{
-    if (!plan_ || closed_)
-        return;
-    if (slot_->waiting()) {
-        const std::optional<Draw> newer = plan_->newer_than(drawing_.back());
-        if (newer && slot_->replace(newer->request)) {
-            plan_->plan_instead(*newer);
-            drawing_.back() = *newer;
-        }
-    }
-    while (!slot_->waiting() && may_start()) {
-        const std::optional<Draw> draw = plan_->next();
-        if (!draw)
-            return;
-        pacing_->started();
-        drawing_.push_back(*draw);
-        slot_->put(draw->request);
-        effects_.push_back(effects::WakeRenderer{});
-    }
-}
-
-void Session::renderer_took_request()
-{
-    plan_drawing();
-}
-
-void Session::drawn(RenderedFrame frame, Time begun)
-{
-    assert(!drawing_.empty());
-    const Draw draw = drawing_.front();
-    drawing_.pop_front();
-    if (closed_)
-        return;
-    if (!frame.error.empty())
-        return renderer_failed(frame.error);
-    plan_->scene_moves(frame.moves);
-    last_frame_ = inspection_of(frame);
-    if (plan_->repeats_final(draw)) {
-        drop_frame("repeats_final");
-        return plan_drawing();
-    }
-    if (frame.converged && draw.request.refine && plan_->is_current(draw)) {
-        plan_->settle(draw);
-        if (slot_->take()) {  // Planned before anybody knew that this one would be final.
-            drawing_.pop_back();
-            pacing_->dropped();
-        }
-    }
-    effects_.push_back(
-        effects::Encode{task_for(std::move(frame), draw, begun, plan_->repeats_final(draw))});
-    encoding_.push_back(draw.asked);
-    plan_drawing();
-}
-
-void Session::encoded(EncodedFrame frame)
-{
-    assert(!encoding_.empty());
-    const std::optional<Time> asked = encoding_.front();
-    encoding_.pop_front();
-    if (closed_)
-        return;
-    if (!frame.error.empty())
-        return renderer_failed(frame.error);
-    if (plan_->mode() == Mode::kInteractive && !ready_.empty()) {
-        ready_.pop_front();
-        drop_frame("overtaken");
-    }
-    ready_.push_back({std::move(frame), asked});
-}
-
-std::optional<OutgoingFrame> Session::take_frame(Time now)
-{
-    if (ready_.empty() || closed_)
-        return std::nullopt;
-    ReadyFrame ready = std::move(ready_.front());
-    ready_.pop_front();
-    ready.frame.header.frame_id = ++last_frame_id_;
-    pacing_->sent(last_frame_id_, now, ready.asked);
-    plan_drawing();
-    return OutgoingFrame{encode_frame_header(ready.frame.header), std::move(ready.frame.payload)};
-}
-
-void Session::frame_written(Time now)
-{
-    if (pacing_)
-        pacing_->written(last_frame_id_, now);
-}
-
-void Session::drop_frame(std::string_view why)
-{
-    pacing_->dropped();
-    effects_.push_back(effects::FrameDropped{why});
 }
 
 // ---------------------------------------------------------------- how it ends

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "protocol/codec.h"
+#include "server/stream/controller.h"
 #include "server/stream/draw_plan.h"
 #include "server/stream/encoder.h"
 #include "server/stream/latest.h"
@@ -64,15 +65,19 @@ struct FrameDropped {
 struct MessageRefused {
     std::string problem;
 };
+/// The controller has chosen another rung so many times.
+struct Stepped {
+    std::uint64_t times;
+};
 /// Change the scene, then Session::scene_changed() of all sessions or edit_refused() of this one.
 struct Edit {
     protocol::Edit edit;
 };
 }  // namespace effects
 
-using SessionEffect =
-    std::variant<effects::Say, effects::Encode, effects::WakeRenderer, effects::Close,
-        effects::Acknowledged, effects::FrameDropped, effects::MessageRefused, effects::Edit>;
+using SessionEffect = std::variant<effects::Say, effects::Encode, effects::WakeRenderer,
+    effects::Close, effects::Acknowledged, effects::FrameDropped, effects::MessageRefused,
+    effects::Stepped, effects::Edit>;
 
 /// A frame for the socket: the two parts are written one after the other as one message.
 struct OutgoingFrame {
@@ -87,6 +92,8 @@ struct SessionDefaults {
     int max_dimension = 0;
     SessionDeadlines deadlines;
     std::shared_ptr<const RendererDescription> description;
+    std::shared_ptr<const FrontierReport>
+        frontier;  ///< What controllers choose among; may be null.
 };
 
 class Session {
@@ -140,6 +147,9 @@ private:
     void on(const protocol::Inspect& inspect, Time now);
 
     void plan_drawing();
+    Draw steered(Draw draw);
+    void steer_by(const RenderedFrame& frame, const Draw& draw, Time begun);
+    void say_frontier(Time now);
     bool may_start() const;
     void drop_frame(std::string_view why);
     bool try_setting(RenderSettings& settings, const std::string& key, const nlohmann::json& value);
@@ -154,6 +164,7 @@ private:
 
     std::optional<DrawPlan> plan_;  ///< Since hello.
     std::optional<Pacing> pacing_;  ///< Since hello.
+    std::optional<Controller> controller_;  ///< Since hello, if interactive.
     std::deque<Draw> drawing_;  ///< Asked of the renderer, in order; the last may lie in the slot.
     std::deque<std::optional<Time>> encoding_;  ///< When each was asked for, in order.
     std::deque<ReadyFrame> ready_;  ///< Wait for the socket; interactive: at most one.

@@ -105,11 +105,13 @@ class SettingsReachTheImage : public GlTest { };
 /// The test that would have caught a setting which reaches no shader. Those that act outside the
 /// picture are named: error_estimate acts on what is said of it, jpeg_quality in the encoder,
 /// still_samples on when the still is final, effects on the time that a picture takes, play, time
-/// and time_step on which moment is drawn, wipe_* on a view of their own.
+/// and time_step on which moment is drawn, wipe_* on a view of their own, budget_ms and
+/// target_error on other settings.
 TEST_F(SettingsReachTheImage, EverySettingChangesTheImage)
 {
-    const std::set<std::string> elsewhere{"effects", "error_estimate", "jpeg_quality", "play",
-        "still_samples", "time", "time_step", "wipe_left", "wipe_position", "wipe_right"};
+    const std::set<std::string> elsewhere{"budget_ms", "effects", "error_estimate", "jpeg_quality",
+        "play", "still_samples", "target_error", "time", "time_step", "wipe_left", "wipe_position",
+        "wipe_right"};
     Scene scene = room_with(bumpy_sphere(24, 12));
     const TestScene on_device(scene);
     const auto render = [&](const RenderSettings& settings, bool refine) {

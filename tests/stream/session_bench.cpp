@@ -22,7 +22,8 @@ nlohmann::json frame_event(const protocol::FrameHeader& header)
         {"camera_sequence", header.camera_sequence}, {"session_epoch", header.session_epoch},
         {"format", protocol::name_of(header.format)}, {"still", header.has(flags::kStill)},
         {"lossless", header.has(flags::kLossless)}, {"converged", header.has(flags::kConverged)},
-        {"accumulated_samples", header.accumulated_samples}};
+        {"accumulated_samples", header.accumulated_samples}, {"rung", header.rung},
+        {"samples_per_pixel", header.samples_per_pixel}};
 }
 
 }  // namespace
@@ -45,12 +46,14 @@ void SessionBench::receive_garbage(const protocol::DecodeError& error)
     collect();
 }
 
-void SessionBench::hello(protocol::Mode mode, std::uint32_t max_in_flight, int still_samples)
+void SessionBench::hello(protocol::Mode mode, std::uint32_t max_in_flight, int still_samples,
+    const std::map<std::string, nlohmann::json>& settings)
 {
     protocol::Hello hello;
     hello.client = "bench";
     hello.mode = mode;
     hello.max_in_flight = max_in_flight;
+    hello.settings = settings;
     hello.settings["still_samples"] = still_samples;
     receive(hello);
 }
@@ -103,6 +106,8 @@ RenderedFrame SessionBench::draw(const RenderRequest& request)
     samples_ = same ? samples_ + 1 : 1;
     previous_ = request;
     RenderedFrame frame;
+    const auto scale = static_cast<double>(request.settings.resolution_scale);
+    frame.trace_ms = frame_ms * scale * scale * request.settings.samples_per_pixel;
     frame.accumulated_samples = samples_;
     frame.converged = samples_ >= static_cast<std::uint32_t>(request.settings.still_samples);
     return frame;
@@ -160,6 +165,8 @@ void SessionBench::collect()
             encoding_.push_back(std::move(encode->task));
         else if (auto* close = std::get_if<effects::Close>(&effect))
             events_.push_back({{"type", "close"}, {"code", static_cast<int>(close->code)}});
+        else if (const auto* stepped = std::get_if<effects::Stepped>(&effect))
+            controller_steps += stepped->times;
         else if (std::holds_alternative<effects::FrameDropped>(effect))
             ++frames_dropped;
         else if (std::holds_alternative<effects::MessageRefused>(effect))

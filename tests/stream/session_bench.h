@@ -22,7 +22,9 @@ public:
 
     void receive(const protocol::ClientMessage& message);
     void receive_garbage(const protocol::DecodeError& error);
-    void hello(protocol::Mode mode, std::uint32_t max_in_flight, int still_samples = 256);
+    /// `settings`: besides still_samples.
+    void hello(protocol::Mode mode, std::uint32_t max_in_flight, int still_samples = 256,
+        const std::map<std::string, nlohmann::json>& settings = {});
     void move_camera(std::uint32_t sequence);
     void acknowledge(std::uint32_t frame_id);
     void pass_time(std::chrono::milliseconds time);
@@ -45,6 +47,8 @@ public:
     std::uint32_t newest_camera = 0;  ///< Sequence last sent by move_camera().
     std::vector<RenderRequest> taken;  ///< By the renderer, in order.
     std::vector<SentFrame> sent;
+    double frame_ms = 0;  ///< Of the renderer, at full size and 1 sample; in proportion to both.
+    std::uint64_t controller_steps = 0;
     int frames_dropped = 0;
     int messages_refused = 0;
 

@@ -1,9 +1,12 @@
 // Sessions as scripts: each file of sessions/ is one test, told line by line.
 //
-//   client TYPE key=value ...   the client says this; values are JSON or bare words, a,b,c is an
-//   array server TYPE key=value ...   the next thing the server says; fields not named may be
-//   anything server nothing              the server has said nothing more wait MILLISECONDS time
-//   passes socket stops | goes on      the client stops reading; goes on
+// * client TYPE key=value ...: the client says this; values are JSON or bare words, a,b,c is an
+//   array
+// * server TYPE key=value ...: the next thing the server says; fields not named may be anything
+// * server nothing: the server has said nothing more
+// * wait MILLISECONDS: time passes
+// * socket stops | goes on: the client stops reading; goes on
+// * frame takes MILLISECONDS: from now on, at full size and 1 sample a pixel
 //
 // Frames have the type `frame` and their header's fields, the end of a connection has the type
 // `close`.
@@ -71,6 +74,8 @@ public:
             wait(words);
         else if (who == "socket")
             set_socket(words);
+        else if (who == "frame")
+            words >> who >> bench_.frame_ms;
         else
             ADD_FAILURE() << "unknown line: " << line;
     }
