@@ -140,6 +140,26 @@ test("overlays are a press away, and a split picture is raw on the left of its d
     assert.deepEqual(page.complaints, []);
 });
 
+test("under a time budget that is hard to keep, moving pictures are drawn smaller and shown at their full size", async () => {
+    await page.locator("#goal-kinds [value=time]").check();
+    await page.locator("#goal-number").fill("1");
+    await page.locator("#goal-number").press("Tab");
+    await until(page, () => window.farlight.settings.budget_ms === 1);
+    await page.locator("#stage").focus();
+    await page.keyboard.down("ArrowLeft");
+    await until(page, () => window.farlight.lastHeader.rung === 1 && window.farlight.lastHeader.width < window.farlight.lastHeader.full_width);
+    await page.keyboard.up("ArrowLeft");
+    const { full_width, full_height } = await header();
+    assert.deepEqual(await page.evaluate(() => [document.getElementById("picture").width, document.getElementById("picture").height]), [full_width, full_height]);
+    assert.equal(await page.evaluate(() => window.farlight.frontier.source), "learnt");
+    await until(page, () => /Not reachable on this device: the cheapest frame takes .* ms \(learnt/.test(document.getElementById("goal-word").textContent));
+    await screenshot(page, "server_time_budget");
+    await page.locator("#goal-kinds [value=as_set]").check();
+    await page.keyboard.press("r");
+    await until(page, () => window.farlight.settings.budget_ms === 0 && window.farlight.lastHeader.width === window.farlight.lastHeader.full_width);
+    assert.deepEqual(page.complaints, []);
+});
+
 test("a slider changes a setting on the server", async () => {
     await page.locator("summary", { hasText: "All other settings" }).click();
     const slider = page.locator("#setting-exposure");
