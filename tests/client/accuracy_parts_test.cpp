@@ -19,26 +19,26 @@ using testing::HasSubstr;
 
 class JournalTest : public testing::Test {
 protected:
-    JournalTest() { std::filesystem::remove(file_); }
-    ~JournalTest() override { std::filesystem::remove(file_); }
+    JournalTest() { std::filesystem::remove(file); }
+    ~JournalTest() override { std::filesystem::remove(file); }
 
-    std::filesystem::path file_ = std::filesystem::path(testing::TempDir())
+    std::filesystem::path file = std::filesystem::path(testing::TempDir())
         / ("farlight_journal_" + std::to_string(::getpid()));
-    json key_{{"scene", "a"}, {"size", {16, 9}}};
+    json key{{"scene", "a"}, {"size", {16, 9}}};
 };
 
 TEST_F(JournalTest, WhatWasMeasuredIsThereTheNextTime)
 {
     {
-        Journal journal(file_, key_);
+        Journal journal(file, key);
         EXPECT_TRUE(journal.fresh());
         EXPECT_EQ(journal.finding(), "");
         journal.add("error a", 1);
         journal.add("error b", {{"relmse", 0.5}});
         journal.add("error a", 2);
     }
-    std::ofstream(file_, std::ios::app) << "{\"name\": \"error c\", \"val";  // killed while writing
-    const Journal journal(file_, key_);
+    std::ofstream(file, std::ios::app) << "{\"name\": \"error c\", \"val";  // killed while writing
+    const Journal journal(file, key);
     EXPECT_FALSE(journal.fresh());
     EXPECT_THAT(journal.finding(), HasSubstr("2 measurements are done"));
     EXPECT_EQ(*journal.find("error a"), 2);
@@ -48,29 +48,29 @@ TEST_F(JournalTest, WhatWasMeasuredIsThereTheNextTime)
 
 TEST_F(JournalTest, AnotherKeyStartsAnewAndSaysWhatChanged)
 {
-    Journal(file_, key_).add("error a", 1);
-    key_["size"] = {32, 18};
+    Journal(file, key).add("error a", 1);
+    key["size"] = {32, 18};
     {
-        const Journal journal(file_, key_);
+        const Journal journal(file, key);
         EXPECT_TRUE(journal.fresh());
         EXPECT_THAT(journal.finding(), HasSubstr("another size: everything is measured anew"));
         EXPECT_EQ(journal.find("error a"), nullptr);
     }
-    EXPECT_FALSE(Journal(file_, key_).fresh());  // begun with the new key
+    EXPECT_FALSE(Journal(file, key).fresh());  // begun with the new key
 }
 
 TEST_F(JournalTest, ALineAfterABrokenOneIsKept)
 {
-    Journal(file_, key_).add("error a", 1);
-    std::ofstream(file_, std::ios::app) << "{\"name\": \"err";
-    Journal(file_, key_).add("error b", 2);
-    EXPECT_NE(Journal(file_, key_).find("error b"), nullptr);
+    Journal(file, key).add("error a", 1);
+    std::ofstream(file, std::ios::app) << "{\"name\": \"err";
+    Journal(file, key).add("error b", 2);
+    EXPECT_NE(Journal(file, key).find("error b"), nullptr);
 }
 
 TEST_F(JournalTest, AnotherFileIsNoJournal)
 {
-    std::ofstream(file_) << "notes\n";
-    EXPECT_THAT(Journal(file_, key_).finding(), HasSubstr("no journal"));
+    std::ofstream(file) << "notes\n";
+    EXPECT_THAT(Journal(file, key).finding(), HasSubstr("no journal"));
 }
 
 TEST(Enlarged, KeepsAConstantAndInterpolatesBetweenCentres)
@@ -107,8 +107,8 @@ TEST(HeatMap, PalettesHoldTheirEnds)
     // In grey they ascend.
     for (const Palette palette : {Palette::kMagma, Palette::kViridis}) {
         double before = -1;
-        for (float share = 0; share <= 1; share += 0.125F) {
-            const auto rgb = colored(std::vector{share}, palette);
+        for (int eighth = 0; eighth <= 8; ++eighth) {
+            const auto rgb = colored(std::vector{static_cast<float>(eighth) / 8}, palette);
             const double grey = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
             EXPECT_GT(grey, before);
             before = grey;

@@ -47,7 +47,7 @@ function techniqueSections(report) {
     section("effects", "What each effect of the scene costs and brings", effectTable(effects),
         paragraph(`Where the scene can do without an effect, it was edited away and put back in turns; the noise is that of one raw sample a pixel, mean(Var x / (E[x]\u00b2 + 0.01)), in the scene with and without. `
             + `What else is in the list cannot be left out alone; its cost is in the whole. Programs that hold every effect take ${withInterval(general, "ratio")} times as long as this scene's own. `
-            + `What an effect costs that is compiled in for nothing is told by `, element("code", {}, "farlight bench --effects --leave-one-in"), "."));
+            + `What an effect costs that is compiled in for nothing is told by `, element("code", {}, "farlight bench --effects --leave-one-in"), `. ${refusals(effects)}`));
 }
 
 function responseSection(report) {

@@ -25,6 +25,9 @@ function techniqueTable(report) {
     ], report.techniques, { id: "techniques-table" });
 }
 
+/** Why an effect could not be left out, where the server said. */
+const refusals = (effects) => effects.rows.filter((row) => row.refused).map((row) => `${row.effect}: ${row.refused}.`).join(" ");
+
 function effectTable(effects) {
     const measured = (row) => row.ratio !== undefined;
     return table([
@@ -32,7 +35,7 @@ function effectTable(effects) {
         { title: "the scene has it because of", text: (row) => row.reason },
         { title: "with [ms]", number: true, text: (row) => number(row.ms_with) },
         { title: "without [ms]", number: true, text: (row) => number(row.ms_without) },
-        { title: "time, with / without", number: true, text: (row) => (measured(row) ? withInterval(row, "ratio") : row.refused ? "needed by others" : "not measured alone") },
+        { title: "time, with / without", number: true, text: (row) => (measured(row) ? withInterval(row, "ratio") : row.refused ? "see below" : "not measured alone") },
         { title: "noise of 1 raw sample, with", number: true, text: (row) => number(row.noise_with) },
         { title: "without", number: true, text: (row) => number(row.noise_without) },
     ], effects.rows, { id: "effects-table" });
