@@ -16,6 +16,7 @@ struct FrameBuffers {
     TextureHandle mean;  ///< Of a resting picture.
     TextureHandle deviation;  ///< Predicted, of each pixel; only where the view shows it.
     TextureHandle distance;  ///< Of each pixel of `denoised` from `mean`; likewise.
+    TextureHandle flip;  ///< Between `denoised` and `mean`; likewise.
 };
 
 struct ViewScales {
@@ -75,6 +76,7 @@ inline ViewRecipe recipe_of(DebugView view, const FrameBuffers& b, const ViewSca
         case DebugView::kPredictedDeviation:
             return {b.deviation, "VIEW_RED", "SHOW_HEAT", kHottest};
         case DebugView::kMeasuredError: return {b.distance, "VIEW_RED", "SHOW_HEAT", kHottest};
+        case DebugView::kFlip: return {b.flip, "VIEW_RED", "SHOW_MAGMA", 1};
         case DebugView::kFinal:
         case DebugView::kSheet:
         case DebugView::kWipe: break;

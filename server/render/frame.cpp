@@ -5,6 +5,7 @@
 #include "server/passes/composite.h"
 #include "server/passes/debug_view.h"
 #include "server/passes/error_estimate.h"
+#include "server/passes/flip.h"
 #include "server/passes/gbuffer.h"
 #include "server/passes/path_trace.h"
 #include "server/passes/svgf.h"
@@ -66,6 +67,9 @@ TextureHandle add_mean(FrameGraph& graph, const FramePlan& plan, FrameBuffers& b
         add_measure(graph, mean, plan.measures_reference ? buffers.denoised : TextureHandle{});
     if (plan.settings.view == DebugView::kMeasuredError && is_denoised(plan))
         buffers.distance = add_distance(graph, buffers.denoised, mean.radiance);
+    if (plan.settings.view == DebugView::kFlip && is_denoised(plan))
+        buffers.flip =
+            add_flip(graph, buffers.denoised, mean.radiance, plan.settings, plan.keeps_flip);
     return is_denoised(plan)
         ? add_refine(graph, buffers.denoised, mean.radiance, static_cast<float>(mean_weight(plan)))
         : mean.radiance;

@@ -19,6 +19,7 @@ struct FramePlan {
     bool measures = false;  ///< Sum up what is known of the mean's error and, against the
                             ///< reference, of the denoised picture's.
     bool measures_reference = false;  ///< There is one.
+    bool keeps_flip = false;  ///< The FLIP map is the last one, if there is one.
     float scene_radius = 1;  ///< [m], scales debug views.
     bool scatters = true;  ///< Something in the scene is lit and can show it.
     bool linear_output =

@@ -32,6 +32,8 @@ struct RenderRequest {
         false;  ///< A cut: forget history and accumulated samples, restart the random numbers.
     bool refine =
         false;  ///< The camera rests: blend towards the accumulated mean (see RenderSettings).
+    bool live = false;  ///< One more frame of what somebody watches: costly maps may be of an
+                        ///< earlier one.
 };
 
 struct PassTime {

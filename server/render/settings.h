@@ -53,6 +53,7 @@ enum class DebugView : std::uint8_t {
     kHistoryLength,
     kPredictedDeviation,
     kMeasuredError,
+    kFlip,  ///< FLIP between the denoised picture and the running mean.
     kWipe,  ///< Two states of the picture beside each other.
 };
 /// What a side of the wipe shows.
@@ -64,7 +65,7 @@ constexpr std::string_view kTonemapNames[] = {"aces", "linear"};
 constexpr std::string_view kDebugViewNames[] = {"final", "sheet", "raw_radiance", "direct",
     "indirect", "specular", "scattered", "albedo", "emission", "depth", "depth_gradient",
     "position", "geometric_normal", "shading_normal", "object_id", "material_id", "motion",
-    "variance", "history_length", "predicted_deviation", "measured_error", "wipe"};
+    "variance", "history_length", "predicted_deviation", "measured_error", "flip", "wipe"};
 constexpr std::string_view kWipeSideNames[] = {"raw", "denoised", "accumulated"};
 
 struct RenderSettings {

@@ -18,6 +18,8 @@ template <typename T> std::span<const std::byte> object_bytes(const T& object)
 }
 
 constexpr int kPlainStretch = 8;
+/// A map for the eye is not worth drawing for every frame that is watched.
+constexpr std::chrono::milliseconds kFlipPeriod{500};
 
 /// The digits of n in base `base` mirrored at the point, in [0, 1).
 /// Source: Halton 1960, "On the efficiency of certain quasi-random sequences of points".
@@ -145,6 +147,30 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
     return inputs;
 }
 
+std::uint32_t View::accumulated_samples(const RenderSettings& settings) const
+{
+    const int frames = mean_frames_ > 0 ? mean_frames_ : still_frames_;
+    return static_cast<std::uint32_t>(frames)
+        * static_cast<std::uint32_t>(settings.samples_per_pixel);
+}
+
+bool View::converged(const RenderSettings& settings) const
+{
+    return accumulated_samples(settings) >= static_cast<std::uint32_t>(settings.still_samples);
+}
+
+/// Whether the FLIP map of before will do: of the same picture, which is not final yet, and younger
+/// than kFlipPeriod.
+bool View::keeps_flip(const RenderRequest& request)
+{
+    const auto now = std::chrono::steady_clock::now();
+    const bool keeps = request.live && mean_frames_ > 1 && !converged(request.settings)
+        && now - flip_drawn_ < kFlipPeriod;
+    if (!keeps)
+        flip_drawn_ = now;
+    return keeps;
+}
+
 /// What the frame consists of, and whether it measures its error. At the end of every stretch of
 /// frames that the denoiser forgets within, its picture is compared with the mean as it was when
 /// the stretch began.
@@ -152,6 +178,7 @@ FramePlan View::plan_of(const RenderRequest& request)
 {
     FramePlan plan;
     plan.settings = request.settings;
+    plan.keeps_flip = request.settings.view == DebugView::kFlip && keeps_flip(request);
     plan.mean_frames = std::max(mean_frames_, 1);
     plan.frame_index = frame_index_;
     plan.refine = request.refine;
@@ -232,11 +259,8 @@ void View::begin(const RenderRequest& request)
     frame_.by_settings = effects_by_settings(plan);
     frame_.constants = variant.constants();
     frame_.compile_ms = scene_.scene_programs.last_compile_ms();
-    const int averaged = mean_frames_ > 0 ? mean_frames_ : still_frames_;
-    frame_.accumulated_samples = static_cast<std::uint32_t>(averaged)
-        * static_cast<std::uint32_t>(request.settings.samples_per_pixel);
-    frame_.converged =
-        frame_.accumulated_samples >= static_cast<std::uint32_t>(request.settings.still_samples);
+    frame_.accumulated_samples = accumulated_samples(request.settings);
+    frame_.converged = converged(request.settings);
     has_history_ = true;
     samples_ += static_cast<std::uint32_t>(request.settings.samples_per_pixel);
 }

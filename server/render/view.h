@@ -12,6 +12,8 @@
 #include "server/render/scene_programs.h"
 #include "shaders/shared/frame_constants.h"
 
+#include <chrono>
+
 namespace farlight {
 
 /// What all views of a renderer share.
@@ -80,6 +82,9 @@ private:
     void upload_constants(const RenderRequest& request);
     FrameInputs inputs_of(const RenderRequest& request) const;
     FramePlan plan_of(const RenderRequest& request);
+    std::uint32_t accumulated_samples(const RenderSettings& settings) const;
+    bool converged(const RenderSettings& settings) const;
+    bool keeps_flip(const RenderRequest& request);
     void make_room_for_tiles(Extent tiles);
     std::vector<glm::vec4> tile_sums(TileSums part) const;
 
@@ -99,6 +104,7 @@ private:
     int still_frames_ = 0;  ///< Frames since the key last changed, with this one.
     int mean_frames_ = 0;  ///< Frames in the running mean, with this one; 0: it does not run.
     int reference_frames_ = 0;  ///< Frames in the older mean to measure against; 0: there is none.
+    std::chrono::steady_clock::time_point flip_drawn_;  ///< Not just kept, when last asked for.
     Buffer tiles_;  ///< What the error estimate sums up.
     ErrorRecord errors_;
     RenderedFrame frame_;  ///< Of the frame in flight.

@@ -156,6 +156,7 @@ Draw DrawPlan::draw_of_wishes(std::optional<Time> asked) const
 {
     Draw draw{wishes_, format_, camera_sequence_, session_epoch_, version_, asked, false};
     draw.request.time = time_;
+    draw.request.live = mode_ == protocol::Mode::kInteractive && !asked;
     if (mode_ == protocol::Mode::kInteractive && wishes_.settings.play)
         draw.request.clock_start = clock_start_;
     return draw;

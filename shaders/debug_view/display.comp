@@ -7,6 +7,7 @@
 //   SHOW_COUNT     0..value_scale, dark blue to yellow        SHOW_ID        a colour of its own for each number
 //   SHOW_MOTION    direction by hue, length by brightness     SHOW_DISTANCE  near bright, far dark
 //   SHOW_FRACTION  position within cells of value_scale       SHOW_HEAT      0..value_scale, black, red, yellow, white
+//   SHOW_MAGMA     0..value_scale, black, purple, pale yellow
 #version 450
 #include "lib/frame.glsl"
 #include "lib/display.glsl"
@@ -21,13 +22,19 @@ uniform float value_scale;  // exposure, or what counts as large for this view
 
 // Five points of the cividis map, readable with any colour vision.
 // Source: Nunez, Anderton, Renslow 2018, "Optimizing colormaps with consideration for color vision deficiency".
-vec3 cividis(float x)
+const vec3 CIVIDIS[5] = vec3[](vec3(0.0, 0.135, 0.305), vec3(0.26, 0.305, 0.423), vec3(0.485, 0.483, 0.471),
+    vec3(0.724, 0.674, 0.421), vec3(0.995, 0.909, 0.217));
+
+// Five points of matplotlib's magma, as FLIP maps are usually drawn, and as the viewer's legend has them.
+// Source: Smith, van der Walt 2015, matplotlib (CC0).
+const vec3 MAGMA[5] = vec3[](vec3(0.0, 0.0, 0.016), vec3(0.318, 0.071, 0.486), vec3(0.718, 0.216, 0.475),
+    vec3(0.988, 0.537, 0.380), vec3(0.988, 0.992, 0.749));
+
+vec3 between(vec3 colors[5], float x)
 {
-    const vec3 c[5] = vec3[](vec3(0.0, 0.135, 0.305), vec3(0.26, 0.305, 0.423), vec3(0.485, 0.483, 0.471),
-        vec3(0.724, 0.674, 0.421), vec3(0.995, 0.909, 0.217));
     const float s = clamp(x, 0.0, 1.0) * 4.0;
     const int i = min(int(s), 3);
-    return mix(c[i], c[i + 1], s - float(i));
+    return mix(colors[i], colors[i + 1], s - float(i));
 }
 
 vec3 heat(float x) { return clamp(vec3(3.0 * x, 3.0 * x - 1.0, 3.0 * x - 2.0), 0.0, 1.0); }
@@ -41,9 +48,11 @@ vec3 color_of(vec3 value)
 #elif defined(SHOW_NORMAL)
     return value * 0.5 + 0.5;
 #elif defined(SHOW_COUNT)
-    return cividis(value.x / value_scale);
+    return between(CIVIDIS, value.x / value_scale);
 #elif defined(SHOW_HEAT)
     return heat(value.x / value_scale);
+#elif defined(SHOW_MAGMA)
+    return between(MAGMA, value.x / value_scale);
 #elif defined(SHOW_ID)
     return vec3(pcg4d(uvec4(uint(value.x) + 1u, 7u, 11u, 13u)).xyz >> 24u) / 255.0 * 0.8 + 0.2;
 #elif defined(SHOW_MOTION)

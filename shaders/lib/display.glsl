@@ -18,6 +18,13 @@ vec3 aces_curve(vec3 x)
     return clamp(mix(small, large, greaterThan(x, vec3(1.0))), 0.0, 1.0);
 }
 
+// What a screen is to show of scene-linear light, before sRGB encoding. `curve` 0: ACES-like, 1: none.
+vec3 tone_curve(vec3 x, int curve)
+{
+    const vec3 light = displayable(x);
+    return curve == 0 ? aces_curve(light) : min(light, vec3(1.0));
+}
+
 // Source: IEC 61966-2-1 (sRGB), for x in [0, 1].
 vec3 srgb_encode(vec3 x)
 {

@@ -120,7 +120,7 @@ test("errors are predicted while the camera moves and measured when it rests", a
 });
 
 test("overlays are a press away, and a split picture is raw on the left of its divider", async () => {
-    for (const view of ["predicted_deviation", "measured_error", "wipe"]) {
+    for (const view of ["predicted_deviation", "measured_error", "flip", "wipe"]) {
         await page.locator(`#views [value=${view}]`).check();
         await until(page, (wanted) => window.farlight.settings.view === wanted, view);
         await untilFrames(page, 3);

@@ -36,6 +36,10 @@ TEST(DrawPlan, InteractiveDrawsAtOnceWithCameraSequenceZero)
     EXPECT_EQ(draw->camera_sequence, 0U);
     EXPECT_EQ(draw->session_epoch, 1U);
     EXPECT_EQ(draw->asked, kStart);
+    EXPECT_FALSE(draw->request.live);
+    EXPECT_TRUE(plan.next()->request.live);
+    plan.set_settings({}, kStart);
+    EXPECT_FALSE(plan.next()->request.live);
 }
 
 TEST(DrawPlan, RefinesFromTheSecondFrameOfAnUnmovedCameraOn)
@@ -232,6 +236,7 @@ TEST(DrawPlan, LockstepAdvancesByTheStepAndNotByTheClock)
         const Draw draw = *plan.next();
         EXPECT_DOUBLE_EQ(draw.request.time, expected);
         EXPECT_FALSE(draw.request.clock_start.has_value());
+        EXPECT_FALSE(draw.request.live);
     }
 }
 
