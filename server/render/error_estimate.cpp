@@ -9,17 +9,20 @@ namespace farlight {
 namespace {
 
 constexpr int kBlockTiles = 8;
-constexpr std::size_t kFewestBlocks = 9;
+constexpr std::size_t kFewestBlocks = 9;  ///< Fewer would leave the spread itself uncertain.
+constexpr std::size_t kFewestForAnInterval = 5;
 /// Pairs of frames that a prediction is averaged over, and at most where it is not precise.
 constexpr int kPairs = 8;
 constexpr int kMostPairs = 64;
 
-/// Two-sided 95 % quantile of Student's t: first term of its expansion about the normal one.
-/// Source: Abramowitz and Stegun 1964, 26.7.5.
+/// Two-sided 95 % quantile of Student's t, from 4 degrees of freedom on: the first terms of its
+/// expansion about the normal one. Source: Abramowitz and Stegun 1964, 26.7.5.
 double t_quantile(double degrees_of_freedom)
 {
     constexpr double z = 1.959964;
-    return z + (z * z * z + z) / (4 * degrees_of_freedom);
+    constexpr double z3 = z * z * z;
+    return z + (z3 + z) / (4 * degrees_of_freedom)
+        + (5 * z3 * z * z + 16 * z3 + 3 * z) / (96 * degrees_of_freedom * degrees_of_freedom);
 }
 
 /// Sums of `component` and what they are over, of blocks of `side` x `side` tiles.
@@ -43,7 +46,9 @@ std::vector<glm::dvec2> block_sums(
     return blocks;
 }
 
-/// Errors of two parts that are independent of each other, the second with the share `weight`.
+/// Errors of a blend of denoised picture and mean, the latter with the share `weight`. They are
+/// taken for independent: the newest samples are in both, but the filter has spread each of them
+/// over many pixels.
 double of_blend(double first, double second, double weight)
 {
     return (1 - weight) * (1 - weight) * first + (weight > 0 ? weight * weight * second : 0);
@@ -80,6 +85,8 @@ ErrorEstimate mean_of_tiles(
     }
     const auto count = static_cast<double>(blocks.size());
     estimate.deviation = std::sqrt(squares * count / (count - 1)) / total.y;
+    if (blocks.size() < kFewestForAnInterval)
+        return estimate;
     const double reach = t_quantile(count - 1) * estimate.deviation;
     estimate.lower = std::max(estimate.value - reach, 0.0);
     estimate.upper = estimate.value + reach;
@@ -92,8 +99,6 @@ ErrorEstimate ErrorRecord::predict(const Frame& frame, FrameErrors& errors)
 {
     errors.noise = mean_of_tiles(frame.predicted, frame.extent, 0).value;
     errors.raw = mean_of_tiles(frame.predicted, frame.extent, 1).value;
-    if (frame.history_reset)
-        predicted_pairs_ = 0;
     const ErrorEstimate half_picture =
         mean_of_tiles(frame.predicted, frame.extent, 2, Over::kPairs);
     if (half_picture.known() && std::isfinite(half_picture.deviation)) {
@@ -118,11 +123,15 @@ ErrorEstimate ErrorRecord::predict(const Frame& frame, FrameErrors& errors)
 
 void ErrorRecord::measure(const Frame& frame)
 {
-    noise_of_one_frame_ = mean_of_tiles(frame.measured, frame.extent, 2).value * frame.mean_frames;
+    noise_of_one_frame_ = mean_of_tiles(frame.measured, frame.extent, 2);
+    for (double* end :
+        {&noise_of_one_frame_.value, &noise_of_one_frame_.lower, &noise_of_one_frame_.upper})
+        *end *= frame.mean_frames;
     if (frame.reference_frames == 0)
         return;
     measured_ = mean_of_tiles(frame.measured, frame.extent, 0);
     measured_.value = std::max(measured_.value, 0.0);
+    measured_.upper = std::max(measured_.upper, measured_.value);
     reference_samples_ =
         static_cast<std::uint32_t>(frame.reference_frames * frame.samples_per_pixel);
 }
@@ -130,11 +139,14 @@ void ErrorRecord::measure(const Frame& frame)
 FrameErrors ErrorRecord::add(const Frame& frame)
 {
     FrameErrors errors;
-    if (frame.mean_frames <= 1) {
+    if (frame.starts_anew)
+        predicted_pairs_ = 0;
+    if (frame.starts_anew || frame.mean_frames <= 1) {
         measured_ = {};
         reference_samples_ = 0;
-        noise_of_one_frame_ = std::numeric_limits<double>::quiet_NaN();
     }
+    if (frame.mean_frames <= 1)
+        noise_of_one_frame_ = {};
     ErrorEstimate denoised;
     if (!frame.predicted.empty())
         denoised = predict(frame, errors);
@@ -142,18 +154,23 @@ FrameErrors ErrorRecord::add(const Frame& frame)
         measure(frame);
     // Until the mean has shown how far its frames scatter, what tells one from the picture stands
     // for it.
-    if (std::isfinite(noise_of_one_frame_))
-        errors.raw = noise_of_one_frame_;
+    ErrorEstimate of_one = noise_of_one_frame_;
+    if (!of_one.known())
+        of_one = {errors.raw, errors.raw, errors.raw};
+    errors.raw = of_one.value;
     errors.measured = measured_;
     errors.reference_samples = reference_samples_;
     errors.predicted = measured_.known() ? measured_ : denoised;
     const double weight = frame.mean_weight;
     if (weight > 0) {
-        const double noise = errors.raw / frame.mean_frames;
-        for (double* end :
-            {&errors.predicted.value, &errors.predicted.lower, &errors.predicted.upper})
-            *end = weight < 1 ? of_blend(*end, noise, weight) : noise;
-        errors.noise = weight < 1 ? of_blend(errors.noise, noise, weight) : noise;
+        const auto blended = [&](double of_denoised, double of_one_frame) {
+            const double of_mean = of_one_frame / frame.mean_frames;
+            return weight < 1 ? of_blend(of_denoised, of_mean, weight) : of_mean;
+        };
+        errors.predicted = {blended(errors.predicted.value, of_one.value),
+            blended(errors.predicted.lower, of_one.lower),
+            blended(errors.predicted.upper, of_one.upper)};
+        errors.noise = blended(errors.noise, of_one.value);
     }
     errors.effective_samples = errors.predicted.value > 0
         ? errors.raw / errors.predicted.value * frame.samples_per_pixel

@@ -36,7 +36,8 @@ enum class Over : std::uint8_t { kPixels, kPairs };
 /// Mean of what the tiles of a picture hold in `component`, over their pixels or, what they hold in
 /// w, the pairs of pixels that were found; NaN of none. The interval takes blocks of tiles for
 /// independent: 64 pixels, the reach of five a-trous iterations, or less where the picture has
-/// fewer than 9 such blocks. It does not go below 0.
+/// fewer than 9 such blocks. It does not go below 0;
+/// of fewer than 5 blocks there is none.
 ErrorEstimate mean_of_tiles(
     std::span<const glm::vec4> sums, Extent extent, int component, Over over = Over::kPixels);
 
@@ -56,7 +57,9 @@ class ErrorRecord {
 public:
     /// What a frame's sums say, and how it was made.
     struct Frame {
-        bool history_reset = false;
+        /// What was known of the denoised picture's error is of another picture: after a cut, or
+        /// where samples, size or filter are others than before.
+        bool starts_anew = false;
         std::span<const glm::vec4> predicted;  ///< Of error_estimate/predict.comp; may be empty.
         std::span<const glm::vec4> measured;  ///< Of error_estimate/measure.comp; may be empty.
         Extent extent;  ///< Of the picture [px].
@@ -76,7 +79,7 @@ private:
     double predicted_square_ = 0;  ///< Of predicted_'s own standard error.
     ErrorEstimate measured_;
     std::uint32_t reference_samples_ = 0;
-    double noise_of_one_frame_ = std::numeric_limits<double>::quiet_NaN();  ///< relMSE.
+    ErrorEstimate noise_of_one_frame_;
 };
 
 /// Frames after which a temporal filter holds at most a thousandth of what it held, if a new frame

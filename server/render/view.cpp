@@ -17,6 +17,7 @@ template <typename T> std::span<const std::byte> object_bytes(const T& object)
     return std::as_bytes(std::span<const T, 1>(&object, 1));
 }
 
+/// Frames between two looks at the noise of a mean without a filter.
 constexpr int kPlainStretch = 8;
 /// A map for the eye is not worth drawing for every frame that is watched.
 constexpr std::chrono::milliseconds kFlipPeriod{500};
@@ -80,6 +81,31 @@ View::View(const SharedScene& scene)
         graph_.keep_all();
 }
 
+/// Settings that act on pictures after they are denoised, or on when they are drawn, are left out.
+View::FilterKey View::filter_key(const RenderSettings& settings, Extent drawn)
+{
+    const RenderSettings neutral;
+    FilterKey key{settings, drawn};
+    RenderSettings& s = key.settings;
+    s.play = neutral.play;
+    s.time = neutral.time;
+    s.time_step = neutral.time_step;
+    s.effects = neutral.effects;
+    s.still_samples = neutral.still_samples;
+    s.refine_crossover = neutral.refine_crossover;
+    s.budget_ms = neutral.budget_ms;
+    s.target_error = neutral.target_error;
+    s.resolution_scale = neutral.resolution_scale;  // `drawn` tells
+    s.exposure = neutral.exposure;
+    s.tonemap = neutral.tonemap;
+    s.view = neutral.view;
+    s.wipe_left = neutral.wipe_left;
+    s.wipe_right = neutral.wipe_right;
+    s.wipe_position = neutral.wipe_position;
+    s.jpeg_quality = neutral.jpeg_quality;
+    return key;
+}
+
 /// Brings the counts of frames up to date with what changed since the last request.
 void View::follow(const RenderRequest& request)
 {
@@ -98,6 +124,9 @@ void View::follow(const RenderRequest& request)
     still_frames_ = same ? still_frames_ + 1 : 1;
     mean_frames_ = averages ? (same ? mean_frames_ + 1 : 1) : 0;
     key_ = key;
+    FilterKey filter = filter_key(s, drawn);
+    new_filter_ = filter != filter_;
+    filter_ = std::move(filter);
 }
 
 /// The scene as it is in this frame and was in the last; the milliseconds that took, 0 where
@@ -185,9 +214,9 @@ FramePlan View::plan_of(const RenderRequest& request)
     plan.scene_radius = scene_.look.radius;
     plan.scatters = scene_.look.scatters;
     plan.linear_output = request.format == PixelFormat::kRgb32f;
-    if (mean_frames_ <= 1)
-        reference_frames_ = 0;
     measured_against_ = 0;
+    if (mean_frames_ <= 1 || new_filter_ || !request.settings.error_estimate || !is_averaged(plan))
+        reference_frames_ = 0;
     if (!request.settings.error_estimate || !is_averaged(plan))
         return plan;
     const bool specular = scene_.scene_programs.scene_mask().has("specular_signal");
@@ -275,7 +304,7 @@ RenderedFrame View::finish()
         counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
     const bool predicts = is_denoised(plan_) && plan_.settings.error_estimate;
     frame_.errors = errors_.add({
-        .history_reset = frame_.history_reset,
+        .starts_anew = frame_.history_reset || new_filter_,
         .predicted = predicts ? tile_sums(TileSums::kPredicted) : std::vector<glm::vec4>{},
         .measured = plan_.measures ? tile_sums(TileSums::kMeasured) : std::vector<glm::vec4>{},
         .extent = key_.extent,

@@ -74,6 +74,16 @@ private:
         bool operator==(const SampleKey&) const = default;
     };
 
+    /// What a denoised picture depends on besides the scene and where it is seen from: while it
+    /// stays, what is known of its error does.
+    struct FilterKey {
+        RenderSettings settings;
+        Extent extent;
+
+        bool operator==(const FilterKey&) const = default;
+    };
+    static FilterKey filter_key(const RenderSettings& settings, Extent drawn);
+
     bool moves() const { return scene_.gpu != nullptr && scene_.gpu->moves(); }
     /// What of `time` can be seen [s].
     double moment_shown(double time) const { return moves() ? scene_.gpu->moment_shown(time) : 0; }
@@ -94,6 +104,8 @@ private:
     Buffer counters_;
     Readback readback_;
     SampleKey key_;
+    FilterKey filter_;
+    bool new_filter_ = false;  ///< It changed with this frame.
     Extent full_extent_;  ///< Of the last frame.
     shared::CameraConstants prev_camera_{};
     double prev_time_ = 0;

@@ -1,6 +1,7 @@
 // What the running mean's own noise comes to, and WITH_REFERENCE the denoised picture against an older mean, of samples
-// that it does not hold: squares of what tells them apart, less what the mean's noise adds to them, are an unbiased
-// estimate of the picture's square error.
+// that it does not hold: squares of what tells them apart, less what the mean's noise adds to them, are the picture's
+// square error in the mean. They are relative to that mean: with few samples in it, pixels that happen to be dark weigh
+// more.
 //
 //   in   in_mean       rgba32f  a: expected relMSE of the mean (accumulate/accumulate.comp)
 //        in_picture    rgba32f  denoised picture
