@@ -15,6 +15,16 @@ namespace {
 constexpr double kSamplesPerFrame = 4e6;
 constexpr int kMaxSamplesPerPixel = 256;
 
+constexpr const char* kUnfinishedFile = "unfinished.pfm";
+
+/// "batch_" and digits.
+bool is_batch(const std::filesystem::path& file)
+{
+    const std::string name = file.stem();
+    return file.extension() == ".pfm" && name.starts_with("batch_")
+        && name.find_first_not_of("0123456789", 6) == std::string::npos;
+}
+
 struct BatchPlan {
     int samples_per_frame;
     int frames;
@@ -63,6 +73,19 @@ double ReferencePicture::own_relmse() const
     return sum / static_cast<double>(mean.size());
 }
 
+void remove_batches(const std::filesystem::path& folder)
+{
+    if (!std::filesystem::is_directory(folder))
+        return;
+    std::vector<std::filesystem::path> ours;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.is_regular_file()
+            && (is_batch(entry.path()) || entry.path().filename() == kUnfinishedFile))
+            ours.push_back(entry.path());
+    for (const std::filesystem::path& file : ours)
+        std::filesystem::remove(file);
+}
+
 ReferencePicture reference_of(const std::vector<Picture>& batches)
 {
     assert(batches.size() >= 2);
@@ -93,7 +116,7 @@ ReferencePicture draw_reference(
         batches.push_back(draw_batch(rig, plan, i));
         if (folder.empty())
             continue;
-        const std::filesystem::path unfinished = folder / "unfinished.pfm";
+        const std::filesystem::path unfinished = folder / kUnfinishedFile;
         write_picture(unfinished, batches.back());
         std::filesystem::rename(unfinished, file);  // a batch is there whole or not at all
     }

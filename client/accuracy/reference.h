@@ -35,6 +35,9 @@ struct ReferencePicture {
 ReferencePicture draw_reference(
     Rig& rig, const ReferencePlan& plan, const std::filesystem::path& folder, Progress& progress);
 
+/// Removes the batches that draw_reference() keeps in `folder`, and nothing else.
+void remove_batches(const std::filesystem::path& folder);
+
 /// Mean and variance of the mean over batches of equal weight, at least 2.
 ReferencePicture reference_of(const std::vector<Picture>& batches);
 

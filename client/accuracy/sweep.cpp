@@ -56,9 +56,12 @@ public:
     {
         if (!journal_.finding().empty())
             std::fprintf(stderr, "%s\n", journal_.finding().c_str());
-        if (journal_.fresh())
-            std::filesystem::remove_all(options.out / "reference");
-        std::filesystem::create_directories(options.out / "reference" / "after_step");
+        const std::filesystem::path after_step = options.out / "reference" / "after_step";
+        if (journal_.fresh()) {
+            remove_batches(after_step.parent_path());
+            remove_batches(after_step);
+        }
+        std::filesystem::create_directories(after_step);
     }
 
     json run()

@@ -142,6 +142,26 @@ TEST(Reference, VarianceIsThatOfTheMean)
     EXPECT_NEAR(reference.own_relmse(), (1.0 / 3 / 4.01) / 3, 1e-7);  // variance in float
 }
 
+TEST(Reference, OnlyItsOwnFilesAreRemoved)
+{
+    const auto folder = std::filesystem::path(testing::TempDir())
+        / ("farlight_batches_" + std::to_string(::getpid()));
+    const std::vector<const char*> others{"batch_1.png", "batch_two.pfm", "photo.pfm", "notes"};
+    const std::vector<const char*> ours{"batch_0.pfm", "batch_15.pfm", "unfinished.pfm"};
+    std::filesystem::create_directories(folder / "batch_7.pfm");
+    for (const auto& names : {others, ours})
+        for (const char* name : names)
+            std::ofstream(folder / name) << "x";
+    remove_batches(folder);
+    for (const char* name : others)
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    for (const char* name : ours)
+        EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+    EXPECT_TRUE(std::filesystem::exists(folder / "batch_7.pfm"));  // a folder
+    std::filesystem::remove_all(folder);
+    remove_batches(folder);  // none there: nothing to do
+}
+
 TEST(Response, DimsEveryLightThatIsNamed)
 {
     const json document = json::parse(R"({
