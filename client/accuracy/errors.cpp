@@ -70,6 +70,9 @@ json measured_error(const Pictures& pictures, const ReferencePicture& reference,
     std::vector<std::span<const float>> runs(pictures.begin(), pictures.end());
     const ErrorSplit split = Ensemble(runs, reference.mean, reference.variance).split();
     const double own = reference.own_relmse();
+    const double relmse = split.relmse.value;
+    // Of a black scene neither has any error.
+    const bool above = relmse > 0 && relmse >= kReferenceFactor * kReferenceFactor * own;
     return {{"relmse", json_of(split.relmse)}, {"bias", json_of(split.bias)},
         {"variance", json_of(split.variance)},
         {"relmse999",
@@ -81,8 +84,7 @@ json measured_error(const Pictures& pictures, const ReferencePicture& reference,
         {"fireflies",
             mean_over(pictures,
                 [&](const auto& picture) { return count_fireflies(picture, reference.mean); })},
-        {"flip", mean_flip(pictures, reference, flip_seeds)},
-        {"reference_limited", !(split.relmse.value >= kReferenceFactor * kReferenceFactor * own)}};
+        {"flip", mean_flip(pictures, reference, flip_seeds)}, {"reference_limited", !above}};
 }
 
 std::map<int, json> averaging_errors(Rig& rig, const ErrorPlan& plan,

@@ -39,9 +39,9 @@ double rate_above(const std::vector<TimedError>& points, double floor)
 
 }  // namespace
 
-std::optional<ErrorFit> fit_error(
-    const std::vector<TimedError>& points, std::optional<double> floor)
+std::optional<ErrorFit> fit_error(const std::vector<TimedError>& all, std::optional<double> floor)
 {
+    const std::vector<TimedError> points = only_measured(all);
     if (floor && !points.empty())
         return ErrorFit{*floor, rate_above(points, *floor)};
     if (points.size() < 2 || !at_different_times(points))
@@ -66,8 +66,9 @@ std::optional<ErrorFit> fit_error(
     return fit;
 }
 
-std::optional<double> log_slope(const std::vector<TimedError>& points)
+std::optional<double> log_slope(const std::vector<TimedError>& all)
 {
+    const std::vector<TimedError> points = only_measured(all);
     if (points.size() < 2 || !at_different_times(points))
         return std::nullopt;
     const auto n = static_cast<double>(points.size());

@@ -16,13 +16,14 @@ struct ErrorFit {
 
 /// Least squares of the relative deviations, floor and rate not below 0. With a `floor` that is
 /// known (0: unbiased; a bias that was measured) the rate alone is fitted, and one point is enough;
-/// else two at different times are needed. Nothing for fewer.
+/// else two at different times are needed. Nothing for fewer. Points that are not measured do not
+/// count.
 std::optional<ErrorFit> fit_error(
-    const std::vector<TimedError>& points, std::optional<double> floor = {});
+    const std::vector<TimedError>& all, std::optional<double> floor = {});
 
-/// Slope of log(error) over log(time) by least squares; nothing for less than two points at
-/// different times.
-std::optional<double> log_slope(const std::vector<TimedError>& points);
+/// Slope of log(error) over log(time) of what is measured by least squares; nothing for less than
+/// two points at different times.
+std::optional<double> log_slope(const std::vector<TimedError>& all);
 
 /// The time from which the unbiased method has less error than the other one [ms]:
 /// t* = (c_unbiased - c_other) / b_other^2. 0: at all times. Nothing: never, b^2 is 0.

@@ -8,13 +8,23 @@
 
 namespace farlight::client {
 
-std::vector<std::size_t> pareto_frontier(const std::vector<TimedError>& points)
+bool is_measured(const TimedError& point)
 {
     const auto usable = [](double value) { return std::isfinite(value) && value > 0; };
+    return usable(point.ms) && usable(point.error);
+}
+
+std::vector<TimedError> only_measured(std::vector<TimedError> points)
+{
+    std::erase_if(points, [](const TimedError& point) { return !is_measured(point); });
+    return points;
+}
+
+std::vector<std::size_t> pareto_frontier(const std::vector<TimedError>& points)
+{
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), 0);
-    std::erase_if(
-        order, [&](std::size_t i) { return !usable(points[i].ms) || !usable(points[i].error); });
+    std::erase_if(order, [&](std::size_t i) { return !is_measured(points[i]); });
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         return points[a].ms != points[b].ms ? points[a].ms < points[b].ms
                                             : points[a].error < points[b].error;

@@ -13,9 +13,13 @@ struct TimedError {
     double error = 0;
 };
 
+/// Time and error are finite and above 0.
+bool is_measured(const TimedError& point);
+std::vector<TimedError> only_measured(std::vector<TimedError> points);
+
 /// Indices of the points that no other one beats, ascending in time, strictly descending in error.
 /// A point is beaten by one that is no worse in both and better in one; of equals the first stays.
-/// Points whose time or error is not finite and above 0 are on no frontier.
+/// Points that are not measured are on no frontier.
 std::vector<std::size_t> pareto_frontier(const std::vector<TimedError>& points);
 
 /// From one point of the frontier to the cheapest with at most half of its error.

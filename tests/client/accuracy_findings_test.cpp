@@ -96,6 +96,21 @@ TEST(Findings, APointLostInTheReferencesNoiseIsOnNoFrontier)
     EXPECT_EQ(findings_of(measured)["frontier"]["points"].size(), 4U);
 }
 
+TEST(Findings, OfNoErrorNothingIsConcluded)
+{
+    Measurements measured = invented();
+    for (MeasuredPoint& each : measured.points)
+        each.error = error_of(0, /*limited=*/true);
+    for (auto& [frames, error] : measured.averaging)
+        error = error_of(0, /*limited=*/true);
+    const json findings = findings_of(measured);
+    for (const json* part : {&findings["frontier"]["points"], &findings["prices"],
+             &findings["fits"], &findings["flip_frontier"]})
+        EXPECT_EQ(part->size(), 0U) << *part;
+    EXPECT_FALSE(findings["averaging"].contains("rate"));
+    EXPECT_TRUE(findings["slope"].empty());
+}
+
 TEST(Findings, PricesNameTheSettingsThatChange)
 {
     const json prices = findings_of(invented())["prices"];

@@ -1,5 +1,6 @@
 // The smaller parts of a sweep: journal, enlarged pictures, colours, references, patches of scenes.
 #include "client/accuracy/effect_costs.h"
+#include "client/accuracy/errors.h"
 #include "client/accuracy/gallery.h"
 #include "client/accuracy/heat_map.h"
 #include "client/accuracy/journal.h"
@@ -160,6 +161,18 @@ TEST(Reference, OnlyItsOwnFilesAreRemoved)
     EXPECT_TRUE(std::filesystem::exists(folder / "batch_7.pfm"));  // a folder
     std::filesystem::remove_all(folder);
     remove_batches(folder);  // none there: nothing to do
+}
+
+TEST(MeasuredError, OfABlackSceneIsLimitedByTheReference)
+{
+    const std::vector<float> black(3 * 4 * 4, 0.0F);
+    const ReferencePicture reference{
+        .size = {4, 4}, .mean = black, .variance = black, .samples = 32};
+    const json error = measured_error({black, black, black}, reference, 1);
+    EXPECT_EQ(error["relmse"]["value"], 0.0);
+    EXPECT_EQ(error["reference_limited"], true);
+    const std::vector<float> grey(black.size(), 0.5F);
+    EXPECT_EQ(measured_error({grey, grey, grey}, reference, 1)["reference_limited"], false);
 }
 
 TEST(Response, DimsEveryLightThatIsNamed)

@@ -65,6 +65,16 @@ TEST(Frontier, HoldsNoDominatedPointAndMissesNone)
     }
 }
 
+TEST(Fit, LeavesOutWhatIsNoMeasurement)
+{
+    const std::vector<TimedError> nothing{{1, 0}, {2, 0}, {0, 1}, {3, kNothing}};
+    EXPECT_FALSE(fit_error(nothing, 0));
+    EXPECT_FALSE(fit_error(nothing));
+    EXPECT_FALSE(log_slope(nothing));
+    EXPECT_DOUBLE_EQ(*log_slope({{1, 4}, {2, 0}, {4, 1}}), -1);
+    EXPECT_DOUBLE_EQ(fit_error({{1, 0}, {2, 3}}, 0)->rate, 6);
+}
+
 TEST(Prices, GoToTheCheapestPointWithHalfTheError)
 {
     const std::vector<Halving> prices = price_list({{1, 10}, {2, 6}, {4, 5}, {7, 2.5}, {9, 2}});
