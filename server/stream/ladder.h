@@ -14,7 +14,7 @@ struct Rung {
     Choice choice;
     std::string label;
     double ms = 0;  ///< A frame, tracing and denoising; 0: not known.
-    std::optional<RungError> error;  ///< relMSE while the camera moves.
+    std::optional<RungError> error;  ///< relMSE; of a report as measured there, else while moving.
 };
 
 /// What to choose among where no report tells. First smaller pictures, then more samples of the
