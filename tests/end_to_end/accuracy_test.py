@@ -6,6 +6,7 @@ import os
 import pathlib
 import shutil
 import signal
+import statistics
 import subprocess
 import time
 import unittest
@@ -73,6 +74,15 @@ class Accuracy(unittest.TestCase):
         for cheaper, dearer in zip(points, points[1:]):
             self.assertLess(cheaper["ms"], dearer["ms"])
             self.assertGreater(cheaper["relmse"], dearer["relmse"])
+
+    def test_pass_times_add_up_to_the_whole_frame(self):
+        # Both clocks run in the same frames, so the machine's load is in both; half of the points may be off.
+        check = self.report["timing_check"]
+        self.assertEqual(check["points"], len(self.report["points"]))
+        off = [abs(point["ms"] / point["whole_ms"] - 1) for point in self.report["points"]]
+        self.assertLessEqual(statistics.median(off), check["tolerance"], off)
+        self.assertAlmostEqual(max(off), check["worst"], places=9)
+        self.assertEqual(self.resumed.returncode, 1 if check["failed"] else 0, self.resumed.stderr)
 
     def test_the_step_response_falls(self):
         response = {row["label"]: row["errors"] for row in self.report["response"]["points"]}
