@@ -40,6 +40,11 @@ function slopeGuide(report, markers) {
     return rate ? [{ points: [Math.min(...xs) / 2, Math.max(...xs) * 2].map((x) => [x, rate / x]), color: COLORS.grey, width: 1.5, dash: [2, 4] }] : [];
 }
 
+/** Denoisers whose error tends to more than nothing. */
+const floorsOf = (report) => report.fits.filter((fit) => fit.floor > 0 && fit.denoiser !== "none");
+
+const floorWords = (fit) => (fit.floor_is_measured ? "bias floor" : "fitted floor");
+
 function errorLegend(report, denoisers, withFits) {
     const marker = (name) => (context, x, y, ratio) => drawMarker(context, { ...lookOf(name, denoisers), size: 4.5 }, x, y, ratio);
     const line = (color, width, dash) => (context, x, y, ratio) =>
@@ -49,7 +54,11 @@ function errorLegend(report, denoisers, withFits) {
     entries.push({ text: "frontier; what it beats is faded. Numbers are those of the price list", draw: line(COLORS.green, 4) });
     if (withFits) {
         entries.push({ text: "slope \u22121: half the error for twice the time", draw: line(COLORS.grey, 1.5, [2, 4]) });
-        entries.push({ text: "bias floor: bias\u00b2 at the denoiser's most samples", draw: line(COLORS.vermilion, 1.5, [8, 5]) });
+        const floor = line(COLORS.vermilion, 1.5, [8, 5]);
+        if (floorsOf(report).some((fit) => fit.floor_is_measured))
+            entries.push({ text: "bias floor: bias\u00b2 at the denoiser's most samples", draw: floor });
+        if (floorsOf(report).some((fit) => !fit.floor_is_measured))
+            entries.push({ text: "fitted floor: b\u00b2 of b\u00b2 + c / t, where seeds show no bias", draw: floor });
     }
     return legend(entries);
 }
@@ -68,13 +77,13 @@ function errorTimePlot(host, report, key, frontier) {
     if (isRelMse)
         lines.push(...slopeGuide(report, markers));
     lines.push({ points: toPoints(frontier), color: COLORS.green, width: 4, faded: false });
-    const floors = isRelMse ? report.fits.filter((fit) => fit.floor > 0 && fit.denoiser !== "none") : [];
+    const floors = isRelMse ? floorsOf(report) : [];
     const [from, to] = logRange(markers.map((marker) => marker.x));
     logPlot(host, {
         title: `${isRelMse ? "relMSE" : "FLIP"} against time a frame, both logarithmic`,
         x: "time a frame [ms], all passes", y: isRelMse ? "relMSE (no unit)" : "mean FLIP (no unit, 0 to 1)", markers, lines,
         verticals: FRAME_RATES.map((rate) => ({ x: 1000 / rate, text: `${rate} fps` })).filter(({ x }) => x > from && x < to),
-        horizontals: floors.map((fit) => ({ y: fit.floor, text: `bias floor of ${fit.denoiser}: ${number(fit.floor, 2)}`, color: lookOf(fit.denoiser, denoisers).color })),
+        horizontals: floors.map((fit) => ({ y: fit.floor, text: `${floorWords(fit)} of ${fit.denoiser}: ${number(fit.floor, 2)}`, color: lookOf(fit.denoiser, denoisers).color })),
         stars: floors.filter((fit) => fit.crossing_ms).map((fit) => ({
             x: fit.crossing_ms, y: fit.crossing_relmse, text: `t* = ${milliseconds(fit.crossing_ms)}`,
         })),
