@@ -144,9 +144,9 @@ bool keeps(const CompareReport& report, const Bound& bound)
             if (bound.holds(value.value))
                 continue;
             kept = false;
-            say("farlight: " + of + ": " + bound.metric + " is " + std::to_string(value.value)
+            say("farlight: " + of + ": " + bound.metric + " is " + number_text(value.value)
                 + ", expected " + (bound.upper ? "at most " : "at least ")
-                + std::to_string(bound.value));
+                + number_text(bound.value));
         }
     };
     for (const ComparedFile& file : report.files)

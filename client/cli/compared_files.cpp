@@ -41,13 +41,6 @@ std::string missing_in(const std::set<std::string>& names, const std::set<std::s
     return count > kNamed ? text + " and " + std::to_string(count - kNamed) + " more" : text;
 }
 
-std::string number_text(double value)
-{
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
-
 std::string padded(std::string text, std::size_t width)
 {
     text.resize(std::max(text.size(), width), ' ');
@@ -123,6 +116,13 @@ nlohmann::json to_json(const ComparedFile& file)
 }
 
 }  // namespace
+
+std::string number_text(double value)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
 
 std::vector<FilePair> paired(const Path& test, const Path& reference)
 {

@@ -50,6 +50,8 @@ struct CompareReport {
 /// Each metric's mean over the files, by the order of the table.
 std::vector<MetricValue> mean_over_files(const CompareReport& report);
 
+/// Four significant digits, as all figures of comparisons are printed.
+std::string number_text(double value);
 /// For people; every number with its formula.
 std::string text_of(const CompareReport& report);
 nlohmann::json json_of(const CompareReport& report);

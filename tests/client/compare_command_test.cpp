@@ -182,6 +182,7 @@ TEST_F(CompareCommandTest, BoundsThatDoNotHoldAreStatusOne)
     EXPECT_EQ(exceeded.status, 1);
     EXPECT_THAT(exceeded.err, HasSubstr("x.exr: flip is 0."));
     EXPECT_THAT(exceeded.err, HasSubstr("expected at most 0.001"));
+    EXPECT_THAT(compare("--max relmse=2.5e-9 " + pair).err, HasSubstr("expected at most 2.5e-09"));
     EXPECT_EQ(compare("--min psnr=90 " + pair).status, 1);
     EXPECT_EQ(compare("--max beauty=1 " + pair).status, 2);
     EXPECT_EQ(compare("--max relmse " + pair).status, 2);
