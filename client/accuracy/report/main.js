@@ -34,7 +34,8 @@ function costSections(report) {
     const frontier = report.points.filter((point) => point.frontier).sort((a, b) => a.frontier - b.frontier);
     errorTimePlot(section("error-time", "Error against time"), report, "relmse", frontier);
     section("prices", "The price list: what the next halving costs", priceTable(report),
-        paragraph("From each point of the frontier to the cheapest one with at most half of its error. The last column is how long plain averaging of raw frames takes to get there, while camera and scene rest."));
+        paragraph("From each point of the frontier to the cheapest one with at most half of its error. The last column is how long plain averaging of raw frames takes to get there, while camera and scene rest. "
+            + "Points too near the reference's own noise (\u2020 below) take no part, so one of them may beat points of the frontier."));
     errorTimePlot(section("flip-time", "The same in FLIP, the difference people see"), report, "flip", report.flip_frontier.map((at) => report.points[at]));
     passPlot(section("passes", "Where the time goes"), frontier);
 }
