@@ -3,9 +3,42 @@
 
 #include "client/json_input.h"
 
+#include <set>
+
 namespace farlight::client {
 
 using nlohmann::json;
+
+namespace {
+
+void collect_strings(const json& value, std::set<std::string>& strings)
+{
+    if (value.is_string())
+        strings.insert(value.get<std::string>());
+    else if (value.is_structured())
+        for (const json& part : value)
+            collect_strings(part, strings);
+}
+
+}  // namespace
+
+json named_files(const std::filesystem::path& scene)
+{
+    std::ifstream stream(scene);
+    std::set<std::string> names;
+    collect_strings(json::parse(stream, nullptr, /*allow_exceptions=*/false), names);
+    json files = json::array();
+    for (const std::string& name : names) {
+        const std::filesystem::path file = scene.parent_path() / name;
+        std::error_code problem;  // most strings name no file
+        if (!std::filesystem::is_regular_file(file, problem))
+            continue;
+        const auto bytes = std::filesystem::file_size(file, problem);
+        const auto changed = std::filesystem::last_write_time(file, problem);
+        files.push_back({name, bytes, changed.time_since_epoch().count()});
+    }
+    return files;
+}
 
 Journal::Journal(const std::filesystem::path& file, const json& key)
 {

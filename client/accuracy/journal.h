@@ -10,6 +10,10 @@
 
 namespace farlight::client {
 
+/// Of each file that a scene (.json, .gltf) names and that is there: name, bytes and time of its
+/// last change, for the journal's key. Not of files that those name in turn.
+nlohmann::json named_files(const std::filesystem::path& scene);
+
 class Journal {
 public:
     /// `key` is all that the measurements depend on. A file with another key, or none, is begun

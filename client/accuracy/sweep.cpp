@@ -97,6 +97,7 @@ private:
     {
         const protocol::Welcome& w = welcome();
         return {{"scene", options_.scene.empty() ? w.scene.file : hash_of(options_.scene)},
+            {"scene_files", options_.scene.empty() ? json() : named_files(options_.scene)},
             {"scene_size", {w.scene.triangles, w.scene.lights}}, {"size", w.size},
             {"server", w.server + " " + options_.server}, {"device", w.gl_renderer},
             {"settings", hash_text(json(w.settings).dump())}, {"grid", hash_text(grid_text())},

@@ -74,6 +74,24 @@ TEST_F(JournalTest, AnotherFileIsNoJournal)
     EXPECT_THAT(Journal(file, key).finding(), HasSubstr("no journal"));
 }
 
+TEST_F(JournalTest, AFileThatASceneNamesIsInTheKey)
+{
+    const std::filesystem::path image = file.string() + ".png";
+    std::ofstream(image) << "1234";
+    std::ofstream(file) << json{
+        {"name", "a room"}, {"textures", {{{"file", image.filename().string()}, {"scale", 2}}}}};
+    const json before = named_files(file);
+    ASSERT_EQ(before.size(), 1U) << before;
+    EXPECT_EQ(before[0][1], 4);
+    EXPECT_EQ(named_files(file), before);
+    const auto changed = std::filesystem::last_write_time(image);
+    std::filesystem::last_write_time(image, changed + std::chrono::seconds(2));
+    EXPECT_NE(named_files(file), before);
+    std::ofstream(file) << "no JSON";
+    EXPECT_TRUE(named_files(file).empty());
+    std::filesystem::remove(image);
+}
+
 TEST(Enlarged, KeepsAConstantAndInterpolatesBetweenCentres)
 {
     const Picture flat{.width = 3, .height = 2, .linear = std::vector<float>(18, 0.3F)};
