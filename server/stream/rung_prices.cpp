@@ -137,7 +137,14 @@ double RungPrices::slow_ms_of(const Choice& choice) const
     return ms_of(choice) * (1 + k98Percent * std::sqrt(variance_));
 }
 
-/// Also makes the model what the report makes it, while it is nothing.
+/// Of each pixel drawn at this scale; a frame of more is refused as too much work.
+double RungPrices::most_samples(double scale) const
+{
+    return kMostSegments / (1e6 * megapixels_of(extent_) * scale * scale * wishes_.max_depth);
+}
+
+/// Also makes the model what the report makes it, while it is nothing. What would be
+/// refused is left out.
 std::vector<Rung> RungPrices::reported_rungs()
 {
     residuals_.clear();
@@ -152,17 +159,18 @@ std::vector<Rung> RungPrices::reported_rungs()
         residuals_.emplace_back(rung.choice, rung.ms / model.ms(megapixels, rung.choice));
     if (!costs_.knows())
         costs_ = model;
+    std::erase_if(rungs, [&](const Rung& rung) {
+        return rung.choice.samples_per_pixel
+            > most_samples(static_cast<double>(rung.choice.resolution_scale));
+    });
     return rungs;
 }
 
 std::vector<Rung> RungPrices::candidates() const
 {
-    const auto scale = static_cast<double>(wishes_.resolution_scale);
-    const double segments_a_sample =
-        1e6 * megapixels_of(extent_) * scale * scale * wishes_.max_depth;
+    const double most = most_samples(static_cast<double>(wishes_.resolution_scale));
     std::vector<Rung> rungs;
-    for (const Choice& choice : candidate_choices(
-             wishes_, static_cast<int>(std::min(kMostSegments / segments_a_sample, 1e6))))
+    for (const Choice& choice : candidate_choices(wishes_, static_cast<int>(std::min(most, 1e6))))
         rungs.push_back({choice, label_of(choice, choice_of(wishes_)), 0, std::nullopt});
     return rungs;
 }

@@ -56,6 +56,7 @@ public:
 private:
     std::vector<Rung> reported_rungs();
     std::vector<Rung> candidates() const;
+    double most_samples(double scale) const;
     void refresh(std::vector<Rung>& rungs) const;
     double residual_of(const Choice& choice) const;
     void learn(const DrawnCost& frame);

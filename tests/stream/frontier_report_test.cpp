@@ -168,6 +168,20 @@ TEST(ReportedFrontier, IsScaledToTheSizeOfThePicture)
     }
 }
 
+/// A frame of four samples would be 1.07e9 path segments, and a session that asks for it is closed.
+TEST(ReportedFrontier, LeavesOutWhatIsTooMuchWorkAtThisSize)
+{
+    Controller controller(shared_report());
+    RenderSettings wishes = within(10000);
+    wishes.max_depth = 64;
+    controller.follow(wishes, {2048, 2048});
+    const auto told = controller.news(Controller::Time());
+    ASSERT_TRUE(told);
+    EXPECT_EQ(told->source, protocol::FrontierSource::kReport);
+    ASSERT_EQ(told->points.size(), 2U);
+    EXPECT_EQ(told->points[1].settings.at("samples_per_pixel"), 1);
+}
+
 TEST(ReportedFrontier, TellsTheRightRungBeforeTheFirstFrame)
 {
     ScriptedDevice device(kSoftware, within(250), shared_report());
