@@ -140,11 +140,19 @@ std::size_t Controller::dearest_within_budget(std::size_t end) const
     return rung > 0 ? rung - 1 : 0;
 }
 
+/// What was learnt of a picture smaller than asked for leaves out what enlarging it adds.
+bool Controller::reaches(const Rung& rung, double error) const
+{
+    const bool told = prices_.source() == protocol::FrontierSource::kReport
+        || rung.choice.resolution_scale >= wishes_.resolution_scale;
+    return told && rung.error && rung.error->value <= error;
+}
+
 /// The dearest rung if none has so small an error.
 std::size_t Controller::cheapest_within(double error) const
 {
-    const auto found = std::find_if(ladder().begin(), ladder().end(),
-        [&](const Rung& rung) { return rung.error && rung.error->value <= error; });
+    const auto found = std::find_if(
+        ladder().begin(), ladder().end(), [&](const Rung& rung) { return reaches(rung, error); });
     return found == ladder().end() ? last_rung()
                                    : static_cast<std::size_t>(found - ladder().begin());
 }
@@ -196,10 +204,9 @@ std::size_t Controller::wished_rung() const
             fits = i;
     if (target() == 0)
         return fits;
-    const std::optional<RungError>& error = ladder()[current_].error;
-    if (!error)
+    if (!ladder()[current_].error)
         return budget() > 0 ? fits : current_;
-    if (error->value > target())
+    if (!reaches(ladder()[current_], target()))
         return std::min(fits, std::max(cheapest_within(target()), current_));
     return std::min(cheapest_within(kLeaves * target()), current_);
 }

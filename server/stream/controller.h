@@ -2,7 +2,9 @@
 // Pure logic: no clock, no threads; frames and points in time go in, settings come out.
 //
 //   budget_ms > 0       the rung of least error whose frames take no longer
-//   target_error > 0    the cheapest rung whose error is no larger
+//   target_error > 0    the cheapest rung whose error is no larger; where errors are learnt, none
+//   of
+//                       a picture smaller than asked for
 //   both                the budget wins
 //   neither             the settings as they are
 //
@@ -69,6 +71,7 @@ private:
     void begin_anew();
     std::size_t best_rung() const;
     std::size_t dearest_within_budget(std::size_t end) const;
+    bool reaches(const Rung& rung, double error) const;
     std::size_t cheapest_within(double error) const;
     std::size_t own_rung() const;
     std::size_t first_rung() const;

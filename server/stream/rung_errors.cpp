@@ -53,9 +53,11 @@ void RungErrors::add(const Choice& choice, RungError estimate)
     if (!std::isfinite(estimate.noise))
         estimate.noise = estimate.value;
     estimate.noise = std::clamp(estimate.noise, kLeastNoise * estimate.value, estimate.value);
-    const auto scale = static_cast<double>(choice.resolution_scale);
-    for (double* const error : {&estimate.value, &estimate.lower, &estimate.upper, &estimate.noise})
-        *error /= scale * scale;
+    if (choice.resolution_scale < 1) {
+        const auto scale = static_cast<double>(choice.resolution_scale);
+        estimate = {
+            .value = estimate.value / (scale * scale), .noise = estimate.noise / (scale * scale)};
+    }
     const auto same = std::find_if(
         known_.begin(), known_.end(), [&](const Known& one) { return one.choice == choice; });
     if (same == known_.end()) {

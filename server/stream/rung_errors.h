@@ -1,5 +1,7 @@
 // RungErrors: how large the error of each choice is, from the estimates that frames carry.
 //
+// Of smaller pictures these are no measurements but an order, as add() says.
+//
 // Only what has been drawn lately is known; the rest is scaled from it as strength_of() has it: the
 // part of the error that is noise goes with 1 / (samples * 2^iterations), all of it with 1 /
 // pixels, and between two known choices the logarithm of the error goes linearly with that of
@@ -16,7 +18,7 @@
 
 namespace farlight {
 
-/// relMSE, with its 95 % interval where it was estimated and not scaled.
+/// relMSE, with its 95 % interval where it was estimated, at full size, and not scaled.
 struct RungError {
     double value = 0;
     double lower = std::numeric_limits<double>::quiet_NaN();
@@ -31,8 +33,8 @@ public:
     static constexpr std::uint64_t kMemory = 300;
 
     /// A frame was drawn so. Estimates that are not finite and positive are left out. They are of
-    /// the pixels drawn; what those that are not would have shown counts as if it were noise:
-    /// error = estimate / resolution_scale^2.
+    /// the pixels drawn: what enlarging a smaller picture adds, at edges most of it, is not known.
+    /// To keep the order of strength_of(), estimate / resolution_scale^2 stands for that error.
     void add(const Choice& choice, RungError estimate);
     void forget() { known_.clear(); }
 

@@ -195,6 +195,16 @@ TEST(Controller, ATargetErrorThatEasesOffIsMetMoreCheaply)
     EXPECT_LE(most_steps_in_a_second(device.frames, 5, 15), 1);
 }
 
+/// Smaller pictures would reach it by what is learnt of the pixels they draw.
+TEST(Controller, ATargetErrorIsMetAtFullSizeOnly)
+{
+    ScriptedDevice device(kLargeGpu, budget_of(0, 5));
+    device.set_noise(0.01);
+    device.draw_for(10);
+    EXPECT_LE(device.controller.ladder().front().error->value, 5);
+    EXPECT_EQ(device.frames.back().choice, (Choice{1, 1, 5}));
+}
+
 TEST(Controller, OfBothBudgetsTheTimeWins)
 {
     ScriptedDevice device(kSmallGpu, budget_of(20, 0.01 / 64));

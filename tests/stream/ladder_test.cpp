@@ -132,12 +132,16 @@ TEST(RungErrors, ForgetsWhatIsOld)
     EXPECT_NEAR(record.errors_of({{1, 1, 5}})[0]->value, 0.08, 1e-12);
 }
 
-/// Estimates know the noise of the pixels drawn: a picture of half the size has a quarter of them.
-TEST(RungErrors, PixelsLeftOutCount)
+/// Estimates are of the pixels drawn: what stands for the error of a smaller picture has the order
+/// of strength, and no interval.
+TEST(RungErrors, OfSmallerPicturesNothingIsMeasured)
 {
     RungErrors record;
-    record.add({0.5F, 1, 5}, {0.01});
-    EXPECT_NEAR(record.errors_of({{0.5F, 1, 5}})[0]->value, 0.04, 1e-12);
+    record.add({0.5F, 1, 5}, {0.01, 0.008, 0.012});
+    const auto smaller = record.errors_of({{0.5F, 1, 5}})[0];
+    EXPECT_NEAR(smaller->value, 0.04, 1e-12);
+    EXPECT_TRUE(std::isnan(smaller->lower));
+    EXPECT_TRUE(std::isnan(smaller->upper));
     EXPECT_NEAR(record.errors_of({{1, 1, 5}})[0]->value, 0.01, 1e-12);
 }
 
