@@ -8,6 +8,8 @@ namespace {
 
 /// JPEG quality of a resting picture on its way to the lossless one.
 constexpr int kRestingQuality = 90;
+/// An estimate is a mean over pairs of frames: that of fewer frames at rest is not believed.
+constexpr int kFramesToBelieve = 8;
 
 std::uint32_t microseconds(double milliseconds)
 {
@@ -76,7 +78,9 @@ DrawnCost cost_of(const RenderedFrame& frame, const Draw& draw)
 bool is_final(const RenderedFrame& frame, const Draw& draw)
 {
     const auto target = static_cast<double>(draw.request.settings.target_error);
-    return frame.converged || (target > 0 && frame.errors.predicted.value <= target);
+    const bool believed = frame.accumulated_samples
+        >= static_cast<std::uint32_t>(kFramesToBelieve * draw.request.settings.samples_per_pixel);
+    return frame.converged || (target > 0 && believed && frame.errors.predicted.upper <= target);
 }
 
 protocol::Inspection inspection_of(const RenderedFrame& frame)
