@@ -82,6 +82,7 @@ void Controller::follow(const RenderSettings& wishes, Extent extent)
     wishes_ = wishes;
     extent_ = extent;
     resting_samples_.reset();
+    rebuilt_at_.reset();
     prices_.follow(wishes, extent);
     const auto same = std::find_if(
         ladder().begin(), ladder().end(), [&](const Rung& one) { return one.choice == before; });
@@ -286,6 +287,7 @@ void Controller::begin_counting(std::optional<Time> stepped)
 /// Another ladder; the rung stays, or becomes the dearest that is no dearer.
 void Controller::rebuild(Time now)
 {
+    rebuilt_at_ = now;
     const Rung before = ladder()[current_];
     prices_.rebuild();
     std::size_t rung = 0;
@@ -298,6 +300,8 @@ void Controller::rebuild(Time now)
             rung = i;
     }
     current_ = rung;
+    if (!steers())
+        return;
     ++steps_;
     begin_counting(now);
 }
@@ -308,7 +312,12 @@ std::optional<protocol::Frontier> Controller::news(Time now)
 {
     if (!prices_.known() || (said_at_ && now - *said_at_ < kBetweenNews))
         return std::nullopt;
-    rebuild(now);
+    // Another ladder may be a step, so that it waits like one; misses are met without it.
+    const bool may_step = !stepped_ || now - *stepped_ >= kBetweenSteps;
+    if (may_step && (!rebuilt_at_ || now - *rebuilt_at_ >= kBetweenNews))
+        rebuild(now);
+    if (rebuilt_at_ != now)
+        return std::nullopt;
     const bool same = std::equal(said_.begin(), said_.end(), ladder().begin(), ladder().end(),
         [](const Rung& a, const Rung& b) { return !differs(a, b); });
     if (same)

@@ -105,6 +105,7 @@ private:
     std::optional<int> resting_samples_;  ///< Of the picture that rests now.
     std::vector<Rung> said_;
     std::optional<Time> said_at_;
+    std::optional<Time> rebuilt_at_;  ///< The ladder, since the wishes last changed.
 };
 
 }  // namespace farlight

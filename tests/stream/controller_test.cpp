@@ -280,6 +280,9 @@ TEST(Controller, TellsItsFrontierWhenItIsKnownBetterAndOnceASecond)
     for (int i = 0; i < 40; ++i)
         draw(2.3 + 0.1 * i, 500, 0.1);
     EXPECT_FALSE(draw(9, 500, 0.1)) << "nothing new";
+    EXPECT_FALSE(draw(9.3, 50, 0.1)) << "looked for within a second";
+    EXPECT_TRUE(draw(10.1, 50, 0.1));
+    EXPECT_EQ(controller.steps(), 0U) << "it does not steer";
 }
 
 TEST(Controller, AnotherSceneIsLearntAnew)
