@@ -19,10 +19,17 @@ constexpr int kMostPairs = 64;
 /// expansion about the normal one. Source: Abramowitz and Stegun 1964, 26.7.5.
 double t_quantile(double degrees_of_freedom)
 {
-    constexpr double z = 1.959964;
-    constexpr double z3 = z * z * z;
-    return z + (z3 + z) / (4 * degrees_of_freedom)
-        + (5 * z3 * z * z + 16 * z3 + 3 * z) / (96 * degrees_of_freedom * degrees_of_freedom);
+    constexpr double kNormal = 1.959964;
+    constexpr double kCube = kNormal * kNormal * kNormal;
+    return kNormal + (kCube + kNormal) / (4 * degrees_of_freedom)
+        + (5 * kCube * kNormal * kNormal + 16 * kCube + 3 * kNormal)
+        / (96 * degrees_of_freedom * degrees_of_freedom);
+}
+
+std::size_t index_of(int x, int y, int across)
+{
+    return static_cast<std::size_t>(x)
+        + static_cast<std::size_t>(y) * static_cast<std::size_t>(across);
 }
 
 /// Sums of `component` and what they are over, of blocks of `side` x `side` tiles.
@@ -37,10 +44,10 @@ std::vector<glm::dvec2> block_sums(
         static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
     for (int y = 0; y < tiles.height; ++y)
         for (int x = 0; x < tiles.width; ++x) {
-            const glm::vec4& tile = sums[static_cast<std::size_t>(x + y * tiles.width)];
+            const glm::vec4& tile = sums[index_of(x, y, tiles.width)];
             const int pixels = std::min(kTileSize, extent.width - x * kTileSize)
                 * std::min(kTileSize, extent.height - y * kTileSize);
-            blocks[static_cast<std::size_t>(x / side + y / side * across)] += glm::dvec2(
+            blocks[index_of(x / side, y / side, across)] += glm::dvec2(
                 tile[component], over == Over::kPairs ? tile.w : static_cast<float>(pixels));
         }
     return blocks;

@@ -124,9 +124,9 @@ void View::follow(const RenderRequest& request)
     still_frames_ = same ? still_frames_ + 1 : 1;
     mean_frames_ = averages ? (same ? mean_frames_ + 1 : 1) : 0;
     key_ = key;
-    FilterKey filter = filter_key(s, drawn);
+    const FilterKey filter = filter_key(s, drawn);
     new_filter_ = filter != filter_;
-    filter_ = std::move(filter);
+    filter_ = filter;
 }
 
 /// The scene as it is in this frame and was in the last; the milliseconds that took, 0 where
