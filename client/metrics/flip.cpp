@@ -147,6 +147,7 @@ std::vector<float> hdr_flip(std::span<const float> test_linear,
 
 Pooled pool(std::span<const float> errors, Mask mask)
 {
+    expect_fitting(mask, errors.size());
     std::vector<double> sorted;
     for (std::size_t i = 0; i < errors.size(); ++i)
         if (mask.empty() || mask[i] != 0)

@@ -63,14 +63,19 @@ std::size_t count_nonfinite(std::span<const float> values)
         std::count_if(values.begin(), values.end(), [](float v) { return !std::isfinite(v); }));
 }
 
+void expect_fitting(Mask mask, std::size_t pixels)
+{
+    if (!mask.empty() && mask.size() != pixels)
+        throw MetricError("the mask has " + std::to_string(mask.size()) + " pixels, the picture "
+            + std::to_string(pixels));
+}
+
 void expect_comparable(std::span<const float> test, std::span<const float> reference, Mask mask)
 {
     if (test.size() != reference.size())
         throw MetricError("the picture has " + std::to_string(test.size())
             + " values, the reference " + std::to_string(reference.size()));
-    if (!mask.empty() && mask.size() * kRgb != test.size())
-        throw MetricError("the mask has " + std::to_string(mask.size()) + " pixels, the picture "
-            + std::to_string(test.size() / kRgb));
+    expect_fitting(mask, test.size() / kRgb);
     expect_finite(test, "picture", mask);
     expect_finite(reference, "reference", mask);
     if (!mask.empty() && std::count(mask.begin(), mask.end(), 0) == std::ssize(mask))

@@ -40,6 +40,9 @@ struct ImageSize {
 
 std::size_t count_nonfinite(std::span<const float> values);
 
+/// Throws MetricError when there is a mask and it has not `pixels` pixels.
+void expect_fitting(Mask mask, std::size_t pixels);
+
 /// Throws MetricError when a value that counts is not finite, when sizes differ, when none counts.
 void expect_comparable(
     std::span<const float> test, std::span<const float> reference, Mask mask = {});

@@ -47,6 +47,7 @@ double structural_similarity(
     if (size.width < kSsimWindow || size.height < kSsimWindow)
         throw MetricError("SSIM: found " + std::to_string(size.width) + "x"
             + std::to_string(size.height) + " pixels, expected at least 11x11");
+    expect_fitting(mask, test.size() / 3);
     constexpr int kRadius = kSsimWindow / 2;
     const Kernel window = gaussian(kWindowSigma, kRadius);
     const auto mean = [&](const Plane& p) { return filtered(p, size, window, window); };

@@ -72,9 +72,7 @@ void FlickerMeter::expect_pairs(Mask mask) const
     if (frames_ < 2)
         throw MetricError(
             "flicker: found " + std::to_string(frames_) + " frames, expected at least 2");
-    if (!mask.empty() && mask.size() != mean_.size())
-        throw MetricError("the mask has " + std::to_string(mask.size()) + " pixels, the frames "
-            + std::to_string(mean_.size()));
+    expect_fitting(mask, mean_.size());
 }
 
 double FlickerMeter::flicker(Mask mask) const
