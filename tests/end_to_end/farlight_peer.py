@@ -138,7 +138,11 @@ class Peer:
     async def hear(self):
         """The next message: a dict or a Frame."""
         message = await asyncio.wait_for(self.socket.recv(), PATIENCE_S)
-        return json.loads(message) if isinstance(message, str) else Frame(message)
+        if not isinstance(message, str):
+            return Frame(message)
+        message = json.loads(message)
+        # Said unasked, at any time: who does not steer by it passes over it.
+        return await self.hear() if message["type"] == "frontier" else message
 
     async def hear_kind(self, kind):
         """The next JSON message, which must be of this kind; frames before it are acknowledged."""
