@@ -102,7 +102,7 @@ export class Accuracy {
         const error = errorOf(header);
         const ms = (header.trace_us + header.denoise_us) / 1000;
         this.#goal.frame({
-            ms, raw: header.raw_error, error: error?.value ?? NaN, samples: header.samples_per_pixel || 1,
+            ms, raw: header.raw_error, error: error?.value ?? NaN, measured: header.measured_error, samples: header.samples_per_pixel || 1,
             accumulated: header.accumulated_samples, still: header.flags.still,
         });
         const now = performance.now();

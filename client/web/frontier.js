@@ -27,12 +27,33 @@ export function bestWithin(points, ms) {
 export const cheapestReaching = (points, error) => cheapest(points.filter((point) => point.error <= error));
 
 /**
- * How long a camera must rest until a plain mean of frames has the error `target` [s], and how many samples a pixel that is.
- * A mean of n frames has raw / n, `raw` being the error of one frame's own samples; a frame takes `ms`.
+ * The error of the picture shown at rest, `n` samples a pixel after the camera came to it. The server blends the denoised picture,
+ * of error D, with the mean of all samples, of error R / n, R = raw * samples being that of one sample a pixel. The mean has the
+ * share w = n / (n + c), c the setting refine_crossover, so that (1 - w)^2 D + w^2 R / n = (c^2 D + n R) / (n + c)^2.
+ * `frame`: {raw: error of one frame's own samples, samples: a pixel and frame, crossover: c, 0 without a denoiser, denoised: D}.
  */
-export function rest(target, { raw, ms, samples }) {
-    const frames = Math.max(1, raw / target);
-    return { seconds: frames * ms / 1000, samples: Math.ceil(frames) * samples };
+export function errorAfter(n, { raw, samples, crossover = 0, denoised = NaN }) {
+    const one = raw * samples;
+    return crossover > 0 ? (crossover ** 2 * denoised + n * one) / (n + crossover) ** 2 : one / n;
+}
+
+/** D of a frame at rest from the error that is shown, the other way round; NaN where the mean outweighs it, which magnifies mistakes. */
+export function denoisedIn({ error, raw, samples, accumulated, crossover }) {
+    const behind = (error * (accumulated + crossover) ** 2 - accumulated * raw * samples) / crossover ** 2;
+    return accumulated < crossover ? Math.max(behind, 0) : NaN;
+}
+
+/**
+ * How long a camera must rest until errorAfter() is `target` [s], and how many samples a pixel that is; a frame takes `ms`.
+ * The error may rise at first, where the mean comes in too early, but it falls ever after: the larger root is meant.
+ */
+export function rest(target, frame) {
+    const { raw, ms, samples, crossover: c = 0, denoised } = frame;
+    const one = raw * samples;
+    const square = c > 0 ? one ** 2 - 4 * target * c * (one - c * denoised) : one ** 2; // below 0: never as large as `target`
+    const root = square < 0 || errorAfter(samples, frame) <= target ? samples : (one - 2 * target * c + Math.sqrt(square)) / (2 * target);
+    const frames = Math.max(1, root / samples);
+    return { seconds: frames * ms / 1000, samples: Math.ceil(frames * (1 - 1e-12)) * samples }; // 1e-12: rounding is no frame
 }
 
 /** 0.0023, 1.5, 120; below a thousandth 2.3e-4: errors span many decades. */

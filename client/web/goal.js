@@ -1,8 +1,8 @@
 // What people aim for: a time for each frame, an accuracy, patience without end, or settings as they set them; one slider
 // serves time and accuracy. What no moving frame reaches is barred on its track, and said below it.
 import { element, shortNumber } from "./dom.js";
-import { cheapest, errorNumber, finest, reachOfError, reachOfPatience, reachOfTime } from "./frontier.js";
-import { barredPart, errorStops, shareOf, timeStops } from "./goal_scale.js";
+import { cheapest, denoisedIn, errorNumber, finest, reachOfError, reachOfPatience, reachOfTime } from "./frontier.js";
+import { barredPart, errorStops, shareOf, timeStops, wished } from "./goal_scale.js";
 import { nearestStop } from "./scale.js";
 
 const KINDS = {
@@ -30,20 +30,20 @@ export class Goal {
     #nodes; #ask; #changed;
     #described = new Map(); #values = {};
     #frontier = { source: "learnt", points: [] };
-    #frame = { ms: NaN, raw: NaN, error: NaN, samples: 1, accumulated: 0, still: false };
-    #rested = {};     // ms, raw and samples of the last frame at rest: moving ones may be smaller
+    #frame = { ms: NaN, raw: NaN, error: NaN, denoised: NaN, samples: 1, accumulated: 0, still: false };
+    #rested = {};     // of the last frame at rest, for rest(): moving ones may be smaller
     #kind = "as_set"; #kinds = [];
     #stops = [];
     #radios = new Map();
     #patient = null;  // still_samples as they were before "unlimited"
 
-    /** `nodes` are {box, kinds, slider, label, unit, range, number, ticks, ends, word}; `ask(key, value)` asks for a setting; `changed()` tells of another goal. */
+    /** `nodes` are {box, kinds, slider, label, unit, range, number, ticks, ends, problem, word}; `ask(key, value)` asks for a setting; `changed()` tells of another goal. */
     constructor(nodes, ask, changed) {
         this.#nodes = nodes;
         this.#ask = ask;
         this.#changed = changed;
         nodes.range.addEventListener("input", () => this.#wish(this.#stops[nodes.range.value]));
-        nodes.number.addEventListener("change", () => nodes.number.value !== "" && this.#wish(Number(nodes.number.value)));
+        nodes.number.addEventListener("change", () => this.#read(nodes.number.valueAsNumber));
     }
 
     /** {kind: "time" or "accuracy", value}, or null. */
@@ -85,18 +85,24 @@ export class Goal {
         this.show();
     }
 
-    /** What the newest frame tells: {ms, raw, error, samples, accumulated, still}; numbers may be NaN. */
-    frame(frame) {
-        const known = Object.entries(frame).filter(([, value]) => !Number.isNaN(value));
-        this.#frame = { ...this.#frame, ...Object.fromEntries(known), most: this.#values.still_samples ?? Infinity };
+    /** What the newest frame tells: {ms, raw, error, measured, samples, accumulated, still}; numbers may be NaN. */
+    frame({ measured, ...frame }) {
+        const { denoiser, refine_crossover = 0, still_samples = Infinity } = this.#values;
+        const crossover = denoiser === "svgf" ? refine_crossover : 0;
+        const known = (told) => Object.fromEntries(Object.entries(told).filter(([, value]) => !Number.isNaN(value)));
+        this.#frame = { ...this.#frame, ...known(frame), crossover, most: still_samples };
+        const behind = measured >= 0 ? measured : denoisedIn(this.#frame);
+        Object.assign(this.#frame, known({ denoised: frame.still ? behind : frame.error }));
+        const { ms, raw, denoised, samples } = this.#frame;
         if (frame.still)
-            this.#rested = { ms: this.#frame.ms, raw: this.#frame.raw, samples: this.#frame.samples };
+            this.#rested = { ms, raw, denoised, samples };
     }
 
     #choose(kind) {
         const before = this.#kind;
         this.#kind = kind;
         this.#stops = [];
+        this.#complain("");
         const { key } = KINDS[kind];
         for (const other of ["budget_ms", "target_error"])
             if (other !== key && this.#values[other] > 0)
@@ -126,7 +132,28 @@ export class Goal {
         return stops.findLast((stop) => stop >= most) ?? stops[0];
     }
 
+    /** What was typed: NaN if that is no number. */
+    #read(typed) {
+        const { key, unit } = KINDS[this.#kind];
+        const { value, problem } = wished(typed, this.#described.get(key), unit);
+        if (value !== null)
+            this.#wish(value);
+        this.#complain(problem);
+        this.#nodes.number.value = this.#typed(this.#values[key]);
+    }
+
+    #complain(problem) {
+        this.#nodes.problem.textContent = problem;
+        this.#nodes.problem.hidden = problem === "";
+    }
+
+    /** A value as the number box shows it. */
+    #typed(value) {
+        return this.#kind === "time" ? value : Number(value.toPrecision(DIGITS));
+    }
+
     #wish(value) {
+        this.#complain("");
         this.#set(KINDS[this.#kind].key, value);
         this.show();
         this.#changed();
@@ -171,6 +198,7 @@ export class Goal {
         const last = this.#stops.length - 1;
         label.textContent = kind.label;
         unit.textContent = kind.unit;
+        number.max = this.#described.get(kind.key).upper;
         range.max = last;
         range.value = nearestStop(this.#stops, value);
         const reach = this.#kind === "time" ? reachOfTime(this.#frontier, value) : reachOfError(this.#frontier, value, { ...this.#frame, ...this.#rested });
@@ -182,7 +210,7 @@ export class Goal {
         range.style.setProperty("--barred", share);
         slider.classList.toggle("beyond", !reach.reached);
         if (document.activeElement !== number)
-            number.value = this.#kind === "time" ? value : Number(value.toPrecision(DIGITS));
+            number.value = this.#typed(value);
         ends.replaceChildren(...[0, last].map((at, i) => element("span", {}, `${shown(this.#stops[at])}, ${kind.ends[i]}`)));
         word.textContent = reach.words;
         this.#showTicks();

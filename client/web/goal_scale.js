@@ -1,5 +1,5 @@
 // The stops of the slider for time and accuracy: logarithmic, round numbers, wide enough for what the frontier knows. Pure.
-import { cheapest, finest } from "./frontier.js";
+import { cheapest, errorAfter, finest } from "./frontier.js";
 import { roundStops } from "./scale.js";
 
 const STILL_MS = 30000;      // the finest accuracy on offer is what a camera at rest for this long reaches
@@ -33,9 +33,20 @@ export function timeStops(points, frame, setting) {
 export function errorStops(points, frame, setting) {
     const known = positive([...points.map(({ error }) => error), frame.error]);
     const [least, most] = known.length ? [Math.min(...known), Math.max(...known)] : [1e-3, 0.1];
-    const resting = positive([frame.raw * frame.ms / STILL_MS]);
+    const resting = positive([errorAfter(STILL_MS / frame.ms * frame.samples, frame)]);
     const [from, to] = niceRange(Math.max(FINEST, Math.min(least / 4, ...resting)), most * 4);
     return within(from, to, setting).reverse();
+}
+
+/**
+ * What somebody gets who types `typed` (NaN: no number) for a setting with `lower` and `upper`, 0 of which means off:
+ * {value, problem}; null where what holds stays, "" where nothing is wrong.
+ */
+export function wished(typed, { lower, upper }, unit) {
+    if (!(typed > 0))
+        return { value: null, problem: `${Number.isNaN(typed) ? "That is no number" : `${typed} is too little`}: a number above ${lower} is needed, at most ${upper} ${unit}.` };
+    const value = Math.min(Math.max(typed, lower), upper);
+    return { value, problem: value === typed ? "" : `${typed} is out of range: ${value} ${unit} is the ${value < typed ? "most" : "least"}.` };
 }
 
 /** Where `value` lies among `stops`, rising or falling, as a share of the slider's way [0, 1]. */

@@ -58,7 +58,7 @@ const accuracy = new Accuracy({
     plot: at("frontier-plot"), caption: at("frontier-word"), rows: at("accuracy-rows"), formula: at("accuracy-formula"),
     goal: {
         box: at("goal"), kinds: at("goal-kinds"), slider: at("goal-slider"), label: at("goal-label"), unit: at("goal-unit"),
-        range: at("goal-range"), number: at("goal-number"), ticks: at("goal-ticks"), ends: at("goal-ends"), word: at("goal-word"),
+        range: at("goal-range"), number: at("goal-number"), ticks: at("goal-ticks"), ends: at("goal-ends"), problem: at("goal-problem"), word: at("goal-word"),
     },
 }, ask, () => statistics.roundTrip());
 

@@ -2,12 +2,12 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
-    bestWithin, cheapest, cheapestReaching, duration, errorNumber, errorOf, finest, frontierOf, interval, reachOfError, reachOfPatience,
+    bestWithin, cheapest, cheapestReaching, denoisedIn, duration, errorAfter, errorNumber, errorOf, finest, frontierOf, interval, reachOfError, reachOfPatience,
     reachOfTime, rest,
 } from "../../client/web/frontier.js";
 import { rangeFor, ticks } from "../../client/web/frontier_plot.js";
 import { kindOf, kindsFor } from "../../client/web/goal.js";
-import { barredPart, errorStops, niceRange, shareOf, timeStops } from "../../client/web/goal_scale.js";
+import { barredPart, errorStops, niceRange, shareOf, timeStops, wished } from "../../client/web/goal_scale.js";
 import { VIEWS } from "../../client/web/views.js";
 import { fitted } from "../../client/web/wipe.js";
 
@@ -45,6 +45,49 @@ test("a mean of n frames has the raw error over n", () => {
     assert.deepEqual(rest(0.002, FRAME), { seconds: 4, samples: 200 });      // 100 frames of 40 ms and 2 samples
     assert.deepEqual(rest(0.5, FRAME), { seconds: 0.04, samples: 2 });       // one frame is the least
     assert.ok(Number.isNaN(rest(0.1, { ms: 40, raw: NaN, samples: 1 }).seconds));
+});
+
+const near = (actual, expected) => assert.ok(Math.abs(actual - expected) <= 1e-9 * Math.abs(expected), `${actual}, expected ${expected}`);
+
+// By hand, with c = 64, R = raw * samples = 0.4, D = 0.004: 64 samples a pixel at rest give both a share of 1/2, so
+// 0.004 / 4 + 0.4 / 64 / 4 = 0.001 + 0.0015625; 192 give (1/4)^2 0.004 + (3/4)^2 0.4 / 192 = 0.00025 + 0.001171875.
+const BLEND = { ...FRAME, crossover: 64, denoised: 0.004 };
+
+test("at rest the denoised picture turns into the mean, and its error with it", () => {
+    near(errorAfter(64, BLEND), 0.0025625);
+    near(errorAfter(192, BLEND), 0.001421875);
+    near(errorAfter(192, { ...BLEND, crossover: 0 }), 0.4 / 192);
+    near(denoisedIn({ ...BLEND, error: errorAfter(30, BLEND), accumulated: 30 }), 0.004);
+    assert.ok(Number.isNaN(denoisedIn({ ...BLEND, error: 0.0025625, accumulated: 64 }))); // the mean has half of it
+    assert.equal(denoisedIn({ ...BLEND, error: 1e-9, accumulated: 30 }), 0); // less than the mean's own share
+});
+
+test("how long to rest follows the blend", () => {
+    const half = rest(0.0025625, BLEND); // 32 frames of 2 samples and 40 ms
+    near(half.seconds, 1.28);
+    assert.equal(half.samples, 64);
+    const later = rest(0.001421875, BLEND);
+    near(later.seconds, 3.84);
+    assert.equal(later.samples, 192);
+    assert.deepEqual(rest(0.05, BLEND), { seconds: 0.04, samples: 2 }); // the first frame has 0.004 and a little
+    near(rest(0.000390784, BLEND).seconds, 18.72); // 936 samples: (64^2 0.004 + 936 * 0.4) / 1000^2
+    assert.ok(Number.isNaN(rest(0.001, { ...BLEND, denoised: NaN }).seconds));
+    // A denoised picture better than the mean of 64: the error rises from 0.0001 to 0.0016 before it falls.
+    const rises = { ...BLEND, denoised: 0.0001 };
+    assert.ok(errorAfter(60, rises) > 0.0015 && errorAfter(60, rises) > errorAfter(2, rises));
+    assert.equal(rest(0.001, rises).samples, 2);
+    near(errorAfter(rest(0.0002, rises).seconds / 0.04 * 2, rises), 0.0002);
+    assert.deepEqual(rest(0.01, rises), { seconds: 0.04, samples: 2 }); // it never is as large
+});
+
+test("what is typed is a number above 0, in range or brought there, and why is said", () => {
+    const setting = { lower: 0, upper: 10 };
+    assert.deepEqual(wished(0.5, setting, "relMSE"), { value: 0.5, problem: "" });
+    assert.deepEqual(wished(99, setting, "relMSE"), { value: 10, problem: "99 is out of range: 10 relMSE is the most." });
+    assert.deepEqual(wished(0.1, { lower: 1, upper: 10 }, "ms"), { value: 1, problem: "0.1 is out of range: 1 ms is the least." });
+    assert.deepEqual(wished(-3, setting, "relMSE"), { value: null, problem: "-3 is too little: a number above 0 is needed, at most 10 relMSE." });
+    assert.equal(wished(0, setting, "relMSE").value, null); // 0 would mean off
+    assert.deepEqual(wished(NaN, setting, "relMSE"), { value: null, problem: "That is no number: a number above 0 is needed, at most 10 relMSE." });
 });
 
 test("a time budget below the cheapest frame says what that takes", () => {

@@ -88,12 +88,37 @@ test("an accuracy budget takes the place of a time budget and tells how long to 
     await page.locator("#goal-range").press("End");
     await says("#goal-word", /Not while moving: the finest known frame has 5e-4.*Reachable after \d+ s still.*choose “unlimited”/);
     assert.equal(await page.locator("#goal-range").getAttribute("data-barred"), "right");
-    const { value } = await untilReceived("set", (message) => message.key === "target_error" && message.value < 5e-4);
+    await untilReceived("set", (message) => message.key === "target_error" && message.value < 5e-4);
     await screenshot(page, "fake_accuracy_budget");
-    await page.locator("#goal-number").fill("99");
-    await page.locator("#goal-number").press("Tab");
-    await page.getByText(/found 99/).waitFor();
-    await until(page, (before) => Number(document.getElementById("goal-number").value) === before, value); // what holds
+});
+
+test("what is typed beside the slider comes into range or is refused, and why is said", async () => {
+    await choose("accuracy");
+    const number = page.locator("#goal-number");
+    await number.fill("0.004");
+    await number.press("Enter");
+    await untilReceived("set", ({ key, value }) => key === "target_error" && value === 0.004);
+    for (const typed of ["", "0", "-2"]) {
+        await number.fill(typed);
+        await number.press("Enter");
+        await says("#goal-problem", /a number above 0 is needed, at most 10 relMSE/);
+        assert.equal(await number.inputValue(), "0.004", typed); // what holds
+        await number.fill("0.005");
+        await number.press("Enter");
+        await says("#goal-problem", /^$/);
+        await number.fill("0.004");
+        await number.press("Enter");
+    }
+    await number.fill("99");
+    await number.press("Enter");
+    await says("#goal-problem", /99 is out of range: 10 relMSE is the most/);
+    assert.equal(await number.inputValue(), "10");
+    await until(page, () => window.farlight.settings.target_error === 10);
+    assert.ok(sets("target_error").every((value) => value > 0 && value <= 10), `${sets("target_error")}`);
+    await screenshot(page, "fake_number_refused");
+    await page.locator("#goal-range").press("ArrowRight");
+    assert.equal(await page.locator("#goal-problem").isVisible(), false);
+    assert.deepEqual(page.complaints, []);
 });
 
 test("unlimited goes on to the last sample the server takes, and back", async () => {
