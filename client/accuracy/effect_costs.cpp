@@ -78,7 +78,7 @@ private:
     std::vector<double> without_;
 };
 
-json row_of(Rig& rig, const EffectsPlan& plan, const json& patch)
+json row_of(Rig& rig, const EffectsPlan& plan, const json& patch, Mask counts)
 {
     bool own_programs = true;
     const auto show = [&](const json& change) {
@@ -89,7 +89,7 @@ json row_of(Rig& rig, const EffectsPlan& plan, const json& patch)
     };
     const auto noise = [&] {
         return relative_noise(
-            draw_seeds(rig, plan.raw, {.seeds = plan.seeds, .settings = plan.settings}));
+            draw_seeds(rig, plan.raw, {.seeds = plan.seeds, .settings = plan.settings}), counts);
     };
     json row;
     row["noise_with"] = noise();
@@ -133,26 +133,20 @@ json removal_of(const std::string& effect, const json& document)
     return {};
 }
 
-double relative_noise(const std::vector<std::vector<float>>& pictures)
+double relative_noise(const std::vector<std::vector<float>>& pictures, Mask counts)
 {
     const std::vector<std::span<const float>> runs(pictures.begin(), pictures.end());
-    const std::vector<float> mean = mean_picture(runs);
-    const std::vector<float> variance = variance_picture(runs);
-    double sum = 0;
-    for (std::size_t i = 0; i < mean.size(); ++i) {
-        const auto m = static_cast<double>(mean[i]);
-        sum += static_cast<double>(variance[i]) / (m * m + kRelMseEpsilon);
-    }
-    return sum / static_cast<double>(mean.size());
+    return Ensemble(runs, mean_picture(runs), {}, counts).variance();
 }
 
-json measure_effects(Rig& rig, const EffectsPlan& plan, const json& document, Progress& progress)
+json measure_effects(
+    Rig& rig, const EffectsPlan& plan, const EffectScene& scene, Progress& progress)
 {
     json result{{"rows", json::array()}};
     rig.choose(plan.settings);
     rig.choose(plan.filtered.settings);
     rig.choose({{"effects", "auto"}});
-    const protocol::Inspection scene =
+    const protocol::Inspection called =
         rig.session().await_own_programs(rig.welcome().camera, kCompileTimeout);
     progress.phase("effects: own programs against general ones");
     result["general"] = Contest(rig, plan.frames)
@@ -163,15 +157,15 @@ json measure_effects(Rig& rig, const EffectsPlan& plan, const json& document, Pr
                                 [&] {
                                     rig.choose({{"effects", "auto"}});
                                 });
-    for (const protocol::CalledEffect& effect : scene.effects) {
+    for (const protocol::CalledEffect& effect : called.effects) {
         if (!effect.setting.empty())
             continue;
         json row{{"effect", effect.name}, {"reason", effect.reason}};
-        const json patch = removal_of(effect.name, document);
+        const json patch = removal_of(effect.name, scene.document);
         if (!patch.is_null() && rig.welcome().edits) {
             progress.phase("effects: with and without " + effect.name);
             try {
-                row.update(row_of(rig, plan, patch));
+                row.update(row_of(rig, plan, patch, scene.counts));
             } catch (const RefusedError& refused) {
                 row["refused"] = refused.error.message;  // something else needs it
                 rig.session().edit(json::object(), /*reset=*/true);

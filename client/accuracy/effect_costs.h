@@ -18,13 +18,19 @@ struct EffectsPlan {
     SweepPoint raw;  ///< Whose noise is looked at.
 };
 
+/// Whose effects are taken out, and which pixels of its picture count.
+struct EffectScene {
+    const nlohmann::json& document;
+    Mask counts;
+};
+
 /// "general": the frame with general programs and with the scene's own; "rows": an effect each, as
 /// REPORT.md describes them.
 nlohmann::json measure_effects(
-    Rig& rig, const EffectsPlan& plan, const nlohmann::json& document, Progress& progress);
+    Rig& rig, const EffectsPlan& plan, const EffectScene& scene, Progress& progress);
 
 /// Variance over pictures of different seeds, relative to their mean: mean(Var x / (E[x]^2 +
-/// 0.01)).
-double relative_noise(const std::vector<std::vector<float>>& pictures);
+/// 0.01)) over the pixels that count.
+double relative_noise(const std::vector<std::vector<float>>& pictures, Mask counts = {});
 
 }  // namespace farlight::client

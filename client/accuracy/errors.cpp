@@ -28,15 +28,19 @@ double mean_flip(const Pictures& pictures, const ReferencePicture& reference, in
     double sum = 0;
     const auto count = std::min(pictures.size(), static_cast<std::size_t>(seeds));
     for (std::size_t i = 0; i < count; ++i)
-        sum += pool(ldr_flip(display_of_linear(pictures[i]), shown, reference.size)).mean;
+        sum +=
+            pool(ldr_flip(display_of_linear(pictures[i]), shown, reference.size), reference.counts)
+                .mean;
     return sum / static_cast<double>(count);
 }
 
-double mean_over(const Pictures& pictures, const auto& metric)
+using Metric = double (*)(std::span<const float>, std::span<const float>, Mask);
+
+double mean_over(const Pictures& pictures, const ReferencePicture& reference, Metric metric)
 {
     double sum = 0;
     for (const auto& picture : pictures)
-        sum += metric(picture);
+        sum += metric(picture, reference.mean, reference.counts);
     return sum / static_cast<double>(pictures.size());
 }
 
@@ -67,23 +71,20 @@ double work_of_seeds(const SweepPoint& point, const ErrorPlan& plan)
 
 json measured_error(const Pictures& pictures, const ReferencePicture& reference, int flip_seeds)
 {
+    for (const auto& picture : pictures)
+        expect_comparable(picture, reference.mean);  // what does not count must be finite too
     std::vector<std::span<const float>> runs(pictures.begin(), pictures.end());
-    const ErrorSplit split = Ensemble(runs, reference.mean, reference.variance).split();
+    const ErrorSplit split =
+        Ensemble(runs, reference.mean, reference.variance, reference.counts).split();
     const double own = reference.own_relmse();
     const double relmse = split.relmse.value;
     // Of a black scene neither has any error.
     const bool above = relmse > 0 && relmse >= kReferenceFactor * kReferenceFactor * own;
     return {{"relmse", json_of(split.relmse)}, {"bias", json_of(split.bias)},
         {"variance", json_of(split.variance)},
-        {"relmse999",
-            mean_over(pictures,
-                [&](const auto& picture) { return relative_mse_999(picture, reference.mean); })},
-        {"mse",
-            mean_over(pictures,
-                [&](const auto& picture) { return mean_square_error(picture, reference.mean); })},
-        {"fireflies",
-            mean_over(pictures,
-                [&](const auto& picture) { return count_fireflies(picture, reference.mean); })},
+        {"relmse999", mean_over(pictures, reference, relative_mse_999)},
+        {"mse", mean_over(pictures, reference, mean_square_error)},
+        {"fireflies", mean_over(pictures, reference, count_fireflies)},
         {"flip", mean_flip(pictures, reference, flip_seeds)}, {"reference_limited", !above}};
 }
 

@@ -54,6 +54,28 @@ Picture draw_batch(Rig& rig, const ReferencePlan& plan, int batch)
     return linear_picture(frame);
 }
 
+/// Whether the batches differ in a pixel, that is, whether its light is left to chance.
+bool differ_at(const std::vector<Picture>& batches, std::size_t pixel)
+{
+    return std::any_of(batches.begin(), batches.end(), [&](const Picture& batch) {
+        const auto value = [&](const Picture& picture) {
+            return picture.linear.begin() + static_cast<std::ptrdiff_t>(3 * pixel);
+        };
+        return !std::equal(value(batch), value(batch) + 3, value(batches.front()));
+    });
+}
+
+std::vector<std::uint8_t> pixels_that_count(
+    const std::vector<Picture>& batches, std::span<const float> depth)
+{
+    std::vector<std::uint8_t> counts(depth.size() / 3);
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        counts[i] = depth[3 * i] > 0 || differ_at(batches, i) ? 1 : 0;
+    if (std::count(counts.begin(), counts.end(), 0) == std::ssize(counts))
+        counts.clear();
+    return counts;
+}
+
 }  // namespace
 
 double ReferencePlan::work(const protocol::Size& size) const
@@ -68,9 +90,19 @@ double ReferencePicture::own_relmse() const
     double sum = 0;
     for (std::size_t i = 0; i < mean.size(); ++i) {
         const double r = static_cast<double>(mean[i]);
-        sum += static_cast<double>(variance[i]) / (r * r + kRelMseEpsilon);
+        if (counts.empty() || counts[i / 3] != 0)
+            sum += static_cast<double>(variance[i]) / (r * r + kRelMseEpsilon);
     }
-    return sum / static_cast<double>(mean.size());
+    return sum / (counted_share() * static_cast<double>(mean.size()));
+}
+
+double ReferencePicture::counted_share() const
+{
+    if (counts.empty())
+        return 1;
+    return 1
+        - static_cast<double>(std::count(counts.begin(), counts.end(), 0))
+        / static_cast<double>(counts.size());
 }
 
 void remove_batches(const std::filesystem::path& folder)
@@ -86,7 +118,7 @@ void remove_batches(const std::filesystem::path& folder)
         std::filesystem::remove(file);
 }
 
-ReferencePicture reference_of(const std::vector<Picture>& batches)
+ReferencePicture reference_of(const std::vector<Picture>& batches, std::span<const float> depth)
 {
     assert(batches.size() >= 2);
     std::vector<std::span<const float>> runs;
@@ -95,7 +127,8 @@ ReferencePicture reference_of(const std::vector<Picture>& batches)
         runs.emplace_back(batch.linear);
     ReferencePicture reference{.size = {batches.front().width, batches.front().height},
         .mean = mean_picture(runs),
-        .variance = variance_picture(runs)};
+        .variance = variance_picture(runs),
+        .counts = pixels_that_count(batches, depth)};
     for (float& value : reference.variance)
         value /= static_cast<float>(batches.size());
     return reference;
@@ -120,7 +153,7 @@ ReferencePicture draw_reference(
         write_picture(unfinished, batches.back());
         std::filesystem::rename(unfinished, file);  // a batch is there whole or not at all
     }
-    ReferencePicture reference = reference_of(batches);
+    ReferencePicture reference = reference_of(batches, rig.depth());
     const auto [width, height] = rig.welcome().size;
     const BatchPlan frames = batch_plan(plan, static_cast<std::size_t>(width) * height);
     reference.samples = frames.samples_per_frame * frames.frames * plan.batches;

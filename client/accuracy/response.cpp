@@ -62,7 +62,7 @@ double work_of_response(const SweepPoint& point, const ResponsePlan& plan)
 }
 
 json measure_response(Rig& rig, const SweepPoint& point, const ResponsePlan& plan,
-    const LightStep& step, const ReferencePicture* after_step)
+    const LightStep& step, Mask counts, const ReferencePicture* after_step)
 {
     rig.choose(plan.settings);
     rig.choose(point.settings);
@@ -75,13 +75,15 @@ json measure_response(Rig& rig, const SweepPoint& point, const ResponsePlan& pla
         FlickerMeter meter;
         for (int i = 0; i < plan.still_frames; ++i)
             meter.add(linear_picture(rig.draw()).linear);
-        flicker += meter.flicker() / plan.seeds;
-        difference += meter.successive_difference() / plan.seeds;
+        flicker += meter.flicker(counts) / plan.seeds;
+        difference += meter.successive_difference(counts) / plan.seeds;
         if (after_step == nullptr)
             continue;
         rig.session().edit(step.patch);
         for (double& error : errors)
-            error += relative_mse(linear_picture(rig.draw()).linear, after_step->mean) / plan.seeds;
+            error += relative_mse(
+                         linear_picture(rig.draw()).linear, after_step->mean, after_step->counts)
+                / plan.seeds;
         rig.session().edit(json::object(), /*reset=*/true);
     }
     json result{{"flicker", flicker}, {"difference", difference}};

@@ -29,6 +29,6 @@ double work_of_response(const SweepPoint& point, const ResponsePlan& plan);
 /// {"flicker", "difference", "errors": relMSE of each frame from the step on, against
 /// `after_step`, "lag"}. Without a step the last two are absent.
 nlohmann::json measure_response(Rig& rig, const SweepPoint& point, const ResponsePlan& plan,
-    const LightStep& step, const ReferencePicture* after_step);
+    const LightStep& step, Mask counts, const ReferencePicture* after_step);
 
 }  // namespace farlight::client

@@ -54,6 +54,18 @@ Frame Rig::draw_after(int history)
     return draw(history == 0);
 }
 
+std::vector<float> Rig::depth()
+{
+    const auto view = held_.find("view");
+    if (view == held_.end())
+        return {};
+    const nlohmann::json shown = view->second;
+    choose({{"view", "depth"}});
+    std::vector<float> depth = linear_picture(draw(/*cut=*/true)).linear;
+    choose({{"view", shown}});
+    return depth;
+}
+
 double work_of(const Settings& settings)
 {
     // On llvmpipe the filters of a frame take about as long as two samples a pixel.

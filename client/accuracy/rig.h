@@ -27,6 +27,9 @@ public:
     Frame draw(bool cut = false, int to_go = 0);
     /// Cuts, then draws `history` frames and one more, which is returned.
     Frame draw_after(int history);
+    /// What the view `depth` shows at full size: at most 0 where no surface is; empty where the
+    /// server has no such view. Three values a pixel, as a picture.
+    std::vector<float> depth();
 
 private:
     Session session_;

@@ -15,6 +15,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::chrono::seconds kCompileTimeout{120};
+/// Counts up when what a journal holds is measured otherwise than before.
+constexpr int kMethod = 2;
 constexpr std::size_t kGalleryPoints = 4;
 constexpr int kGallerySeeds = 10;
 
@@ -96,7 +98,8 @@ private:
     json key() const
     {
         const protocol::Welcome& w = welcome();
-        return {{"scene", options_.scene.empty() ? w.scene.file : hash_of(options_.scene)},
+        return {{"way of measuring", kMethod},
+            {"scene", options_.scene.empty() ? w.scene.file : hash_of(options_.scene)},
             {"scene_files", options_.scene.empty() ? json() : named_files(options_.scene)},
             {"scene_size", {w.scene.triangles, w.scene.lights}}, {"size", w.size},
             {"server", w.server + " " + options_.server}, {"device", w.gl_renderer},
@@ -189,8 +192,8 @@ private:
         for (const SweepPoint& point : response_points(grid_)) {
             progress_.phase("response of " + point.label);
             json row = kept(response_name(point), [&] {
-                return measure_response(
-                    *rig_, point, plans_.response, step_, after ? &*after : nullptr);
+                return measure_response(*rig_, point, plans_.response, step_, reference_->counts,
+                    after ? &*after : nullptr);
             });
             row["label"] = point.label;
             result["points"].push_back(std::move(row));
@@ -211,8 +214,10 @@ private:
 
     json measure_effects()
     {
-        return kept("effects",
-            [&] { return client::measure_effects(*rig_, plans_.effects, document_, progress_); });
+        return kept("effects", [&] {
+            return client::measure_effects(
+                *rig_, plans_.effects, {document_, reference_->counts}, progress_);
+        });
     }
 
     std::vector<SweepPoint> timed_points() const
@@ -269,6 +274,7 @@ private:
             {"reference",
                 {{"samples", reference_->samples}, {"batches", plans_.reference.batches},
                     {"first_seed", kFirstReferenceSeed}, {"relmse", reference_->own_relmse()},
+                    {"counted_share", reference_->counted_share()},
                     {"max_depth", grid_.base.at("max_depth")}, {"antialiasing", false}}}};
     }
 

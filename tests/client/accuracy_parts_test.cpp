@@ -9,6 +9,7 @@
 #include "client/accuracy/times.h"
 
 #include <gmock/gmock.h>
+#include <random>
 
 namespace farlight {
 namespace {
@@ -161,6 +162,94 @@ TEST(Reference, VarianceIsThatOfTheMean)
     EXPECT_NEAR(reference.own_relmse(), (1.0 / 3 / 4.01) / 3, 1e-7);  // variance in float
 }
 
+TEST(Reference, PixelsWithoutSurfaceOrChanceDoNotCount)
+{
+    // Four pixels: a surface, an even sky, a sky whose air is left to chance, a black surface.
+    std::vector<Picture> batches;
+    for (const float value : {1.0F, 2.0F})
+        batches.push_back({.width = 4,
+            .height = 1,
+            .linear = {value, 1, 0, 0.3F, 0.4F, 0.5F, 1, value, 1, 0, 0, 0}});
+    const std::vector<float> depth{5, 5, 5, -1, -1, -1, 0, 0, 0, 2, 2, 2};
+    const ReferencePicture reference = reference_of(batches, depth);
+    EXPECT_THAT(reference.counts, ElementsAre(1, 0, 1, 1));
+    EXPECT_EQ(reference.counted_share(), 0.75);
+    EXPECT_NEAR(reference.own_relmse(), 2 * (0.25 / 2.26) / 9, 1e-7);
+    EXPECT_EQ(reference_of(batches).counted_share(), 1);
+    // Where no pixel would count, all do.
+    const Picture sky{.width = 1, .height = 1, .linear = {1, 1, 1}};
+    EXPECT_EQ(reference_of({sky, sky}, std::vector<float>{0, 0, 0}).counted_share(), 1);
+}
+
+/// A grey gradient with noise in `size`; around it a border of `margin` pixels that is black.
+struct Framed {
+    ImageSize size;
+    int margin;
+
+    Picture draw(std::uint32_t seed, float noise) const
+    {
+        std::mt19937 random(seed);
+        std::normal_distribution<float> normal;
+        Picture picture{.width = size.width + 2 * margin, .height = size.height + 2 * margin};
+        for (int y = -margin; y < size.height + margin; ++y)
+            for (int x = -margin; x < size.width + margin; ++x)
+                for (int c = 0; c < 3; ++c)
+                    picture.linear.push_back(inside(x, y)
+                            ? 0.2F + 0.01F * static_cast<float>(x + y) + noise * normal(random)
+                            : 0.0F);
+        return picture;
+    }
+    std::vector<float> depth() const
+    {
+        std::vector<float> depth;
+        for (int y = -margin; y < size.height + margin; ++y)
+            for (int x = -margin; x < size.width + margin; ++x)
+                depth.insert(depth.end(), 3, inside(x, y) ? 4.0F : 0.0F);
+        return depth;
+    }
+    bool inside(int x, int y) const
+    {
+        return x >= 0 && x < size.width && y >= 0 && y < size.height;
+    }
+    json error() const
+    {
+        std::vector<Picture> batches;
+        for (std::uint32_t seed = 100; seed < 116; ++seed)
+            batches.push_back(draw(seed, 0.01F));
+        std::vector<std::vector<float>> pictures;
+        for (std::uint32_t seed = 1; seed <= 5; ++seed)
+            pictures.push_back(draw(seed, 0.1F).linear);
+        return measured_error(pictures, reference_of(batches, depth()), 2);
+    }
+};
+
+TEST(MeasuredError, IsNotDilutedByABlackBorder)
+{
+    const json bare = Framed{{32, 24}, 0}.error();
+    const json framed = Framed{{32, 24}, 12}.error();
+    for (const char* name : {"relmse", "bias", "variance"})
+        for (const char* part : {"value", "lower", "upper"})
+            EXPECT_DOUBLE_EQ(framed[name][part].get<double>(), bare[name][part].get<double>())
+                << name << " " << part;
+    for (const char* name : {"relmse999", "mse", "fireflies"})
+        EXPECT_DOUBLE_EQ(framed[name].get<double>(), bare[name].get<double>()) << name;
+    // Pixels at the edge see black beyond it rather than themselves repeated, in both pictures.
+    EXPECT_NEAR(
+        framed["flip"].get<double>(), bare["flip"].get<double>(), 0.1 * bare["flip"].get<double>());
+}
+
+TEST(MeasuredError, RefusesNanWhereNothingCounts)
+{
+    ReferencePicture reference{.size = {2, 1},
+        .mean = std::vector<float>(6, 0.5F),
+        .variance = std::vector<float>(6, 0.0F),
+        .counts = {1, 0}};
+    std::vector<float> picture(6, 0.25F);
+    EXPECT_NO_THROW(measured_error({picture, picture, picture}, reference, 1));
+    picture.back() = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(measured_error({picture, picture, picture}, reference, 1), MetricError);
+}
+
 TEST(Reference, OnlyItsOwnFilesAreRemoved)
 {
     const auto folder = std::filesystem::path(testing::TempDir())
@@ -224,6 +313,9 @@ TEST(EffectCosts, PatchesTakeAnEffectOut)
 TEST(EffectCosts, NoiseIsVarianceRelativeToTheMean)
 {
     EXPECT_NEAR(relative_noise({{1, 1, 1}, {3, 1, 1}}), (2 / 4.01) / 3, 1e-7);
+    const std::vector<std::uint8_t> first{1, 0};
+    EXPECT_NEAR(
+        relative_noise({{1, 1, 1, 0, 0, 0}, {3, 1, 1, 0, 0, 0}}, first), (2 / 4.01) / 3, 1e-7);
 }
 
 TEST(FrameTimes, AreKeptThroughTheJournal)

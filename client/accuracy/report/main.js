@@ -12,8 +12,13 @@ function introduction(report) {
             + `against a reference of ${reference.samples} samples a pixel in ${reference.batches} batches with other seeds, whose own relMSE is ${number(reference.relmse, 2)}. `
             + history),
         paragraph(element("code", {}, "relMSE = mean((x \u2212 r)\u00b2 / (r\u00b2 + 0.01))"),
-            ` over pixels and channels, x the frame, r the reference, linear radiance before tone mapping. Truth ends where the scene's longest paths do (max_depth ${reference.max_depth}).`),
+            ` over pixels and channels, x the frame, r the reference, linear radiance before tone mapping. Truth ends where the scene's longest paths do (max_depth ${reference.max_depth}). ${countedPixels(reference)}`),
         shortAnswer(report));
+}
+
+function countedPixels({ counted_share: share }) {
+    return share === undefined || share === 1 ? "All pixels count."
+        : `${percent(1 - share)} of the pixels show no surface and no light that is left to chance: they are right in every frame and count in no error.`;
 }
 
 /** The frontier in a few sentences. */
