@@ -13,18 +13,19 @@ constexpr int kReferenceSamplesFactor = 128;
 
 struct Effort {
     int history, flip_seeds, rounds, response_seeds, still_frames, after, effect_frames;
+    int motion_frames;
 };
 
 /// With svgf_alpha at 0.2, 12 frames leave 0.8^12 = 7 % of the first, 32 frames 0.1 %.
 Effort effort_of(GridSize grid)
 {
     switch (grid) {
-    case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 4};
+    case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 4, 4};
     case GridSize::kClassic:
-    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 8};
+    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 8, 8};
     case GridSize::kNormal: break;
     }
-    return {32, 3, 16, 4, 64, 32, 24};
+    return {32, 3, 16, 4, 64, 32, 24, 8};
 }
 
 /// Settings of everything that is drawn: time stands still, pixels are looked at in their middles
@@ -91,6 +92,9 @@ Plans plans_for(const Grid& grid, const SweepExtent& extent)
         .still_frames = effort.still_frames,
         .after = effort.after,
         .settings = fixed};
+    plans.motion = plans.response;
+    plans.motion.after = effort.after / 2;  // a picture follows a motion: it is never far behind
+    plans.motion_frames = effort.motion_frames;
     plans.effects = {.frames = effort.effect_frames,
         .seeds = 4,
         .settings = fixed,

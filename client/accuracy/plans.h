@@ -22,6 +22,8 @@ struct Plans {
     ErrorPlan error;
     TimePlan time;
     ResponsePlan response;
+    ResponsePlan motion;
+    int motion_frames;  ///< While the lamps move.
     EffectsPlan effects;
 };
 

@@ -3,7 +3,9 @@
 
 #include "client/accuracy/findings.h"
 #include "client/accuracy/gallery.h"
+#include "client/accuracy/moving_light.h"
 #include "client/accuracy/plans.h"
+#include "client/camera_path.h"
 #include "client/json_input.h"
 
 #include <algorithm>
@@ -54,6 +56,7 @@ public:
         , plans_(plans_for(grid_, options.extent))
         , document_(document_of(options.scene))
         , step_(dimming(document_))
+        , motion_(motion_of_lamps(document_, middle_of(welcome().scene), plans_.motion_frames))
         , journal_(options.out / "measured.jsonl", key())
     {
         if (!journal_.finding().empty())
@@ -62,6 +65,7 @@ public:
         if (journal_.fresh()) {
             remove_batches(after_step.parent_path());
             remove_batches(after_step);
+            remove_moving_reference(moments_folder());
         }
         std::filesystem::create_directories(after_step);
     }
@@ -75,6 +79,7 @@ public:
         Measurements measured{.base = grid_.base};
         measure_errors(measured);
         report["response"] = respond();
+        report["motion"] = follow_lamps();
         report["effects"] = measure_effects();
         take_times(measured);
         report.update(findings_of(measured));
@@ -133,12 +138,27 @@ private:
         for (const SweepPoint& point : response_points(grid_))
             if (journal_.find(response_name(point)) == nullptr)
                 progress_.plan(work_of_response(point, plans_.response));
+        if (moves())
+            plan_motion();
         progress_.plan(work_of_times(timed_points(), plans_.time));
         progress_.plan(kGalleryPoints * work_of_seeds(base_point(grid_), gallery_plan()));
     }
 
     static std::string error_name(const SweepPoint& point) { return "error " + point.id(); }
     static std::string response_name(const SweepPoint& point) { return "response " + point.id(); }
+
+    static std::string motion_name(const SweepPoint& point) { return "motion " + point.id(); }
+
+    bool moves() const { return !motion_.patch.is_null() && welcome().edits; }
+    std::filesystem::path moments_folder() const { return options_.out / "reference"; }
+
+    void plan_motion()
+    {
+        progress_.plan(plans_.step_reference.work(welcome().size) * (motion_.frames + 1));
+        for (const SweepPoint& point : response_points(grid_))
+            if (journal_.find(motion_name(point)) == nullptr)
+                progress_.plan(work_of_motion(point, plans_.motion, motion_.frames));
+    }
 
     ErrorPlan gallery_plan() const
     {
@@ -210,6 +230,34 @@ private:
             *rig_, plans_.step_reference, options_.out / "reference" / "after_step", progress_);
         rig_->session().edit(json::object(), /*reset=*/true);
         return after;
+    }
+
+    /// {} where no lamp can be moved; "refused": why the server would not.
+    json follow_lamps()
+    {
+        if (!moves())
+            return json::object();
+        json result{{"what", motion_.what}, {"frames", motion_.frames},
+            {"history", plans_.motion.history}, {"seeds", plans_.motion.seeds},
+            {"points", json::array()}};
+        try {
+            rig_->session().edit(motion_.patch, /*reset=*/true);
+        } catch (const RefusedError& refused) {
+            return {{"refused", refused.error.message}};
+        }
+        progress_.phase("references while the lamps move");
+        const MovingReference truth = draw_moving_reference(
+            *rig_, plans_.step_reference, motion_, moments_folder(), progress_);
+        for (const SweepPoint& point : response_points(grid_)) {
+            progress_.phase("moving lamps, " + point.label);
+            json row = kept(motion_name(point),
+                [&] { return measure_motion(*rig_, point, plans_.motion, truth); });
+            row["label"] = point.label;
+            result["points"].push_back(std::move(row));
+        }
+        rig_->choose({{"play", false}, {"time", 0}});
+        rig_->session().edit(json::object(), /*reset=*/true);
+        return result;
     }
 
     json measure_effects()
@@ -287,6 +335,7 @@ private:
     Plans plans_;
     json document_;  ///< Of the scene; null where it has none of ours.
     LightStep step_;
+    LightMotion motion_;
     Journal journal_;
     std::optional<ReferencePicture> reference_;
 };

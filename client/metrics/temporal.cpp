@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace farlight::client {
@@ -45,13 +46,18 @@ double farthest_around(std::span<const float> depth, ImageSize size, double x, d
 
 }  // namespace
 
-void FlickerMeter::add(std::span<const float> frame)
+void FlickerMeter::add(std::span<const float> frame, std::span<const float> truth)
 {
-    expect_comparable(frame, frame);
-    const std::vector<double> now = luminances(frame);
+    expect_comparable(frame, truth.empty() ? frame : truth);
+    const std::vector<double> level = luminances(frame);
+    std::vector<double> now = level;
+    if (!truth.empty()) {
+        const std::vector<double> expected = luminances(truth);
+        std::transform(now.begin(), now.end(), expected.begin(), now.begin(), std::minus<>());
+    }
     if (frames_ == 0) {
         mean_.assign(now.size(), 0);
-        squares_ = steps_ = mean_;
+        level_ = squares_ = steps_ = mean_;
         last_ = now;
     }
     if (now.size() != mean_.size())
@@ -61,6 +67,7 @@ void FlickerMeter::add(std::span<const float> frame)
     for (std::size_t i = 0; i < now.size(); ++i) {
         const double away = now[i] - mean_[i];
         mean_[i] += away / frames_;
+        level_[i] += (level[i] - level_[i]) / frames_;
         squares_[i] += away * (now[i] - mean_[i]);
         steps_[i] += std::abs(now[i] - last_[i]);
     }
@@ -79,7 +86,7 @@ double FlickerMeter::flicker(Mask mask) const
 {
     expect_pairs(mask);
     return mean_over_pixels(mean_.size(), mask,
-        [&](std::size_t i) { return std::sqrt(squares_[i] / (frames_ - 1)) / (mean_[i] + 0.01); });
+        [&](std::size_t i) { return std::sqrt(squares_[i] / (frames_ - 1)) / (level_[i] + 0.01); });
 }
 
 double FlickerMeter::successive_difference(Mask mask) const
@@ -94,8 +101,8 @@ int lag_frames(std::span<const double> errors)
     if (errors.empty())
         throw MetricError("lag: found no frame after the step");
     const double settled = errors.back();
-    const auto first = std::find_if(
-        errors.begin(), errors.end(), [&](double error) { return error < 2 * settled; });
+    const auto first = std::find_if(errors.begin(), errors.end(),
+        [&](double error) { return error < 2 * settled || error <= settled; });
     return static_cast<int>(first - errors.begin());
 }
 

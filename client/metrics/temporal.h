@@ -6,12 +6,14 @@
 
 namespace farlight::client {
 
-/// Takes frames one by one and keeps three numbers a pixel. Camera and lights at rest, warmed up,
-/// and 64 frames or more make figures that can be compared.
+/// Takes frames one by one and keeps five numbers a pixel. Camera and lights at rest, warmed up,
+/// and 64 frames or more make figures that can be compared. Where something moves on purpose, each
+/// frame's `truth` R takes that out: L - R stands for L wherever frames are told apart.
 class FlickerMeter {
 public:
-    /// Linear RGB, all frames of one size. Throws MetricError when a value is not finite.
-    void add(std::span<const float> frame);
+    /// Linear RGB, all frames of one size, with a truth or without. Throws MetricError when a value
+    /// is not finite.
+    void add(std::span<const float> frame, std::span<const float> truth = {});
 
     int frames() const { return frames_; }
     /// Mean over the pixels that count of std_t(L) / (mean_t(L) + 0.01), with the deviation that
@@ -25,16 +27,17 @@ private:
     void expect_pairs(Mask mask) const;
 
     int frames_ = 0;
-    std::vector<double> mean_;
+    std::vector<double> level_;  ///< Mean of L.
+    std::vector<double> mean_;  ///< Of L - R.
     std::vector<double> squares_;  ///< Sum of squared differences from the mean (Welford 1962).
     std::vector<double> steps_;  ///< Sum of |L_t - L_(t-1)|.
     std::vector<double> last_;
 };
 
-/// Frames after a step change until the error is below 2 times what it settles at: 0 if the first
-/// frame's is. `errors` are those of the frame that first shows the change and all after it,
-/// against the reference of the new state; the last one is what they settle at. Their number if
-/// none is. Throws MetricError without errors.
+/// Frames after a step change until the error is below 2 times what it settles at, strictly: 0 if
+/// the first frame's is. `errors` are those of the frame that first shows the change and all after
+/// it, against the reference of the new state; the last one is what they settle at, and where that
+/// is 0 an error of 0 is there. Throws MetricError without errors.
 int lag_frames(std::span<const double> errors);
 
 /// Residual energy: error `frames_after` the step over that of the step itself, for step responses.

@@ -5,7 +5,7 @@ import { after, before, test } from "node:test";
 import { Browser, screenshot, until } from "./chromium.mjs";
 
 const FOLDER = process.env.FARLIGHT_REPORT;
-const PLOTS = { "error-time": 1, "flip-time": 1, passes: 1, response: 1 };
+const PLOTS = { "error-time": 1, "flip-time": 1, passes: 1, response: 1, motion: 1 };
 
 let browser, page, report, asked;
 
@@ -47,7 +47,7 @@ test("the page asks for nothing but itself", () => {
 
 test("axes are labelled with units", async () => {
     const labels = await page.evaluate(() => [...document.querySelectorAll(".plot")].map((plot) => plot.getAttribute("aria-label")));
-    assert.equal(labels.filter(Boolean).length, 4);
+    assert.equal(labels.filter(Boolean).length, Object.keys(PLOTS).length);
 });
 
 test("tables hold what was measured", async () => {
@@ -56,6 +56,7 @@ test("tables hold what was measured", async () => {
     assert.equal(await rows("classic-table"), report.classic.length);
     assert.equal(await rows("points-table"), report.points.length);
     assert.equal(await rows("techniques-table"), report.techniques.length);
+    assert.equal(await rows("motion-table"), report.motion.points.length);
     assert.match(await page.locator("#prices-table").textContent(), /\+[\d.]+ ms/);
     const text = await page.locator("main").innerText();
     assert.doesNotMatch(text, /undefined|NaN|\[object/);

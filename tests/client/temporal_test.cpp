@@ -39,6 +39,24 @@ TEST(Flicker, OfBrightFramesKeepsSmallUnrest)
     EXPECT_NEAR(meter.flicker() * 65536.04125, 0.03125 * std::sqrt(64.0 / 63), 1e-9);
 }
 
+/// A light that moves is no unrest, what a frame adds to it is.
+TEST(Flicker, OfFramesAboutAMovingTruth)
+{
+    FlickerMeter true_to_it;
+    FlickerMeter blinking;
+    for (int frame = 0; frame < 4; ++frame) {
+        const float truth = 1.0F + static_cast<float>(frame);  // mean 2.5
+        const float blink = truth + (frame % 2 == 0 ? 0.5F : -0.5F);
+        true_to_it.add(Values{truth, truth, truth}, Values{truth, truth, truth});
+        blinking.add(Values{blink, blink, blink}, Values{truth, truth, truth});
+    }
+    EXPECT_NEAR(true_to_it.flicker(), 0, 1e-12);
+    EXPECT_NEAR(true_to_it.successive_difference(), 0, 1e-12);
+    EXPECT_NEAR(blinking.flicker(), std::sqrt(4 * 0.25 / 3) / 2.51, 1e-12);
+    EXPECT_NEAR(blinking.successive_difference(), 1, 1e-12);
+    EXPECT_THROW(blinking.add(Values{1, 1, 1}, Values{1, 1}), MetricError);
+}
+
 TEST(Flicker, RefusesOneFrameOtherSizesAndNan)
 {
     FlickerMeter meter;
@@ -68,8 +86,9 @@ TEST(Lag, OfAnExponentialMean)
 TEST(Lag, IsNoneWhereTheFirstFrameIsAsGoodAsTheLast)
 {
     EXPECT_EQ(lag_frames(std::vector<double>{1.9, 1, 1}), 0);
-    EXPECT_EQ(lag_frames(std::vector<double>{2, 1, 1}), 1);
-    EXPECT_EQ(lag_frames(std::vector<double>{0.5, 0}), 2);  // nothing is below twice 0
+    EXPECT_EQ(lag_frames(std::vector<double>{2, 1, 1}), 1);  // twice is not below twice
+    EXPECT_EQ(lag_frames(std::vector<double>{2, std::nextafter(2.0, 0), 1}), 1);
+    EXPECT_EQ(lag_frames(std::vector<double>{0.5, 0}), 1);  // a light that went out
     EXPECT_THROW(lag_frames({}), MetricError);
 }
 

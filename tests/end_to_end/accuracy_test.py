@@ -88,6 +88,15 @@ class Accuracy(unittest.TestCase):
         response = {row["label"]: row["errors"] for row in self.report["response"]["points"]}
         self.assertLess(response["svgf, 1 sample"][-1], 0.5 * response["svgf, 1 sample"][0])
 
+    def test_a_picture_that_remembers_is_behind_lamps_that_move(self):
+        motion = self.report["motion"]
+        moving = motion["frames"]
+        errors = {row["label"]: row["errors"] for row in motion["points"]}["svgf, 1 sample"]
+        self.assertGreater(errors[moving - 1], 1.5 * errors[0])  # measured 3 times; behind by more with each frame
+        self.assertLess(errors[-1], errors[moving - 1])
+        raw = {row["label"]: row for row in motion["points"]}["none, 1 sample"]
+        self.assertEqual(raw["lag"], 0)
+
     def test_a_line_of_the_table_for_each_point(self):
         with open(OUT / "accuracy.csv", encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))

@@ -65,7 +65,22 @@ function responseSection(report) {
         return;
     }
     host.append(paragraph(`From one frame to the next ${response.step}; the error of the frames that follow is against a reference of the new light. Lag: frames until it is below twice what it settles at.`));
-    responsePlot(host, response);
+    sequencePlot(host, response.points, { title: "relMSE after the light has changed", x: "frames after the step", first: 0 });
+}
+
+function motionSection({ motion }) {
+    const host = section("motion", "Lamps that move");
+    if (!motion?.points) {
+        host.append(paragraph(motion?.refused ? `Not measured: the server refuses to move the lamps (${motion.refused}).`
+            : "Not measured: the scene's file names no lamp that could be moved."));
+        return;
+    }
+    host.append(paragraph(`After ${motion.history} frames at rest ${motion.what} within ${motion.frames} frames, and then stops. Each frame's error is against a reference of its own moment. `
+        + `Flicker = mean over pixels of std\u209c(L \u2212 R) / (mean\u209c(L) + 0.01) while they move, R that reference: what the lamps themselves change is no flicker. Lag: frames after they stop until the error is below twice what it settles at.`),
+    motionTable(motion));
+    sequencePlot(host, motion.points, {
+        title: "relMSE while lamps move", x: "frame of the motion", first: 1, verticals: [{ x: motion.frames + 0.5, text: "the lamps stand still" }],
+    });
 }
 
 function pictureSection(report) {
@@ -102,6 +117,7 @@ function showReport() {
     techniqueSections(report);
     pictureSection(report);
     responseSection(report);
+    motionSection(report);
     tableSections(report);
     methodSection(report);
     window.addEventListener("resize", resizePlots);
