@@ -50,7 +50,7 @@ function logPlot(host, { title, x, y, markers, lines = [], verticals = [], horiz
             x: linearX ? { time: false, range: xRange } : { time: false, distr: 3, log: 10, range: xRange },
             y: { distr: 3, log: 10, range: yRange },
         },
-        axes: [axis(x, linearX ? String : tick), { ...axis(y, tick), size: 64 }],
+        axes: [axis(x, linearX ? (at) => (Number.isInteger(at) ? String(at) : "") : tick), { ...axis(y, tick), size: 64 }],
         // One series for the axes alone; all that is seen is drawn by the hook.
         series: [{}, { show: true, paths: () => null, points: { show: false } }],
         hooks: {

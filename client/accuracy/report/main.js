@@ -18,7 +18,7 @@ function introduction(report) {
 
 function countedPixels({ counted_share: share }) {
     return share === undefined || share === 1 ? "All pixels count."
-        : `${percent(1 - share)} of the pixels show no surface and no light that is left to chance: they are right in every frame and count in no error.`;
+        : `${percent(1 - share)} of the pixels show no surface and no light that is left to chance: every frame of full resolution has them right, and they count in no error.`;
 }
 
 /** The frontier in a few sentences. */
