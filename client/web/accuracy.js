@@ -2,13 +2,14 @@
 //
 // Header and frontier come from the server; the goal (goal.js) and the plot (frontier_plot.js) are parts of it.
 import { element, fixed } from "./dom.js";
-import { ORIGINS, errorNumber, errorOf, frontierOf, interval, milliseconds } from "./frontier.js";
+import { ORIGINS, errorNumber, errorOf, frontierOf, interval, milliseconds, oneMore } from "./frontier.js";
 import { FrontierPlot } from "./frontier_plot.js";
 import { Goal } from "./goal.js";
 
 const REFRESH_MS = 250;     // more often, numbers cannot be read
 const STEP_MS = 100;        // the live point's
 const TRAIL = 40;           // points behind it
+const TRACING = "path_trace"; // the pass whose time grows with the samples
 const ESTIMATES = 120;      // bytes of a frame header that tells errors with their intervals
 
 /** [key, name, what it is]: the rows of numbers. */
@@ -19,6 +20,7 @@ const ROWS = [
     ["raw", "Raw error", "of this frame's own samples without any filter"],
     ["effective", "Effective samples", "samples a pixel that a plain mean would need for the picture's error"],
     ["samples", "Samples a pixel", "of this frame, and in all since camera or settings last changed"],
+    ["more", "One more sample", "what another sample a pixel would add to the frame's time, and what it would take from the error: less each time"],
     ["inside", "Internal size", "the picture as it is traced, and the size it is shown at"],
     ["drawing", "Drawing", "tracing and denoising on the server"],
     ["encoding", "Encoding", "from pixels to bytes"],
@@ -26,23 +28,34 @@ const ROWS = [
     ["faulty", "Non-finite", "NaN and infinite values met while drawing: must be 0"],
 ];
 
+/** The time that this frame's samples took [ms]; NaN without passes. */
+const tracingOf = (passes) => passes.find(({ name }) => name === TRACING)?.ms ?? NaN;
+
+function oneMoreCells(header, passes) {
+    const { ms, raw, error } = oneMore(header, tracingOf(passes));
+    const fromTo = (name, from, to, digits) => (Number.isFinite(to) ? [`${name} ${errorNumber(from, digits)} to ${errorNumber(to, digits)}`] : []);
+    return [Number.isFinite(ms) ? `+ ${milliseconds(ms)}` : "–",
+        [...fromTo("error", header.predicted_error, error, 3), ...fromTo("raw", header.raw_error, raw, 2)].join(", ")];
+}
+
 /** {key: [number, what belongs to it]} for ROWS. */
-function cellsOf(header, roundTrip) {
+function cellsOf(header, passes, roundTrip) {
     const { width, height, full_width, full_height } = header;
     const whole = width === full_width && height === full_height;
     const intervalOf = (kind, before, after) => interval({ lower: header[`${kind}_lower`], upper: header[`${kind}_upper`] }, before, after);
     return {
-        predicted: [errorNumber(header.predicted_error), intervalOf("predicted")],
+        predicted: [errorNumber(header.predicted_error), intervalOf("predicted") + (whole ? "" : ", before it is enlarged")],
         noise: [errorNumber(header.noise_error), "the rest is blur"],
         measured: [errorNumber(header.measured_error), header.reference_samples ? `${intervalOf("measured", "", ", ")}against ${header.reference_samples} samples` : "while still"],
-        raw: [errorNumber(header.raw_error), ""],
-        effective: [Number.isFinite(header.effective_samples) ? errorNumber(header.effective_samples, 3) : "–", ""],
+        raw: [errorNumber(header.raw_error), "unfiltered"],
+        effective: [Number.isFinite(header.effective_samples) ? errorNumber(header.effective_samples, 3) : "–", "of a plain mean"],
         samples: [header.samples_per_pixel || "–", `a frame, ${header.accumulated_samples} in all`],
+        more: oneMoreCells(header, passes),
         inside: [`${width} × ${height}`, whole ? "full size" : `of ${full_width} × ${full_height}`],
         drawing: [`${fixed((header.trace_us + header.denoise_us) / 1000)} ms`, header.frame_us ? `of ${fixed(header.frame_us / 1000)} in all` : ""],
-        encoding: [`${fixed(header.encode_us / 1000)} ms`, ""],
-        network: [`${fixed(roundTrip)} ms`, ""],
-        faulty: [String(header.nonfinite_count), header.nonfinite_count ? "values: the picture is faulty" : ""],
+        encoding: [`${fixed(header.encode_us / 1000)} ms`, "to bytes"],
+        network: [Number.isFinite(roundTrip) ? `${fixed(roundTrip)} ms` : "–", "there and back"],
+        faulty: [String(header.nonfinite_count), header.nonfinite_count ? "values: the picture is faulty" : "values"],
     };
 }
 
@@ -50,7 +63,7 @@ export class Accuracy {
     #nodes; #roundTrip;
     #cells = {};
     #plot; #goal;
-    #frontier = null; #header = null;
+    #frontier = null; #header = null; #passes = [];
     #trail = [];
     #expects = false;  // the server knows budgets, so a frontier will come
     #drawnAt = -Infinity; #steppedAt = -Infinity; #timer;
@@ -97,8 +110,9 @@ export class Accuracy {
         this.#refresh();
     }
 
-    frame(header) {
+    frame(header, passes) {
         this.#header = header;
+        this.#passes = passes;
         const error = errorOf(header);
         const ms = (header.trace_us + header.denoise_us) / 1000;
         this.#goal.frame({
@@ -134,10 +148,10 @@ export class Accuracy {
     }
 
     #drawRows() {
-        for (const [key, texts] of Object.entries(cellsOf(this.#header, this.#roundTrip())))
+        for (const [key, texts] of Object.entries(cellsOf(this.#header, this.#passes, this.#roundTrip())))
             this.#cells[key].forEach((cell, i) => { cell.textContent = texts[i]; });
         const estimates = this.#header.header_size >= ESTIMATES;
-        for (const key of ["predicted", "noise", "measured", "raw", "effective"])
+        for (const key of ["predicted", "noise", "measured", "raw", "effective", "more"])
             this.#cells[key][0].parentElement.hidden = (!estimates || key === "noise") && this.#cells[key][0].textContent === "–";
         this.#nodes.formula.hidden = !estimates;
         this.#cells.faulty[0].parentElement.classList.toggle("bad", this.#header.nonfinite_count !== 0);

@@ -67,7 +67,10 @@ export function errorNumber(error, digits = 2) {
 
 /** "0.001 to 0.002" between `before` and `after`; nothing where it is not known. */
 export function interval({ lower, upper }, before = "", after = "") {
-    return Number.isFinite(lower) && Number.isFinite(upper) ? `${before}${errorNumber(lower)} to ${errorNumber(upper)}${after}` : "";
+    if (!Number.isFinite(lower) || !Number.isFinite(upper))
+        return "";
+    const digits = errorNumber(lower) === errorNumber(upper) ? 3 : 2; // a narrow one would look like none
+    return `${before}${errorNumber(lower, digits)} to ${errorNumber(upper, digits)}${after}`;
 }
 
 /** The error to tell of a frame: of the picture that is shown, else of the denoised one behind it. {value, lower, upper, measured}, or null. */
@@ -93,6 +96,20 @@ export function duration(seconds) {
 
 const LEARNING = "What frames take and bring here is being learnt.";
 
+/**
+ * What one more sample a pixel costs and brings: {ms, raw, error}, NaN where that is not known. Another sample takes as long as
+ * each of this frame's did, `traceMs` together, and s + 1 of them have s / (s + 1) of the variance of s. The filter keeps its
+ * blur, so that of the picture's error only the noise shrinks. At rest the mean of all samples takes over: no `error` there.
+ */
+export function oneMore({ raw_error, predicted_error, noise_error, samples_per_pixel: samples, flags }, traceMs) {
+    return {
+        ms: traceMs / samples, raw: raw_error * samples / (samples + 1),
+        error: flags.still ? NaN : predicted_error - noise_error / (samples + 1),
+    };
+}
+
+const ROOM = 0.8; // of a budget: frames that would take more are not stepped up to, as equal frames take unequal times
+
 /** What a budget of `ms` a frame gets: {reached, words}. */
 export function reachOfTime({ source, points }, ms) {
     const least = cheapest(points);
@@ -101,17 +118,23 @@ export function reachOfTime({ source, points }, ms) {
     const point = bestWithin(points, ms);
     if (!point)
         return { reached: false, words: `Not reachable on this device: the cheapest frame takes ${milliseconds(least.ms)} (${ORIGINS[source]}).` };
+    const tight = point.ms > ROOM * ms ? " With so little room the server may stay below it." : "";
     const error = point.error > 0 ? `, error ${errorNumber(point.error)}` : ", its error not known yet";
-    return { reached: true, words: `“${point.label}” fits: ${milliseconds(point.ms)}${error} (${ORIGINS[source]}).` };
+    return { reached: true, words: `“${point.label}” fits: ${milliseconds(point.ms)}${error} (${ORIGINS[source]}).${tight}` };
 }
 
-/** What a wish for the error `target` takes: {reached, words}. `frame` as for rest(), and `most`: samples after which refining ends. */
+/**
+ * What a wish for the error `target` takes: {reached, words}. `frame` as for rest(), with `most`, samples after which refining ends,
+ * whether the picture is `still`, and its `error`.
+ */
 export function reachOfError({ source, points }, target, frame) {
     const point = cheapestReaching(points, target);
     if (point)
         return { reached: true, words: `“${point.label}” reaches it while moving: ${milliseconds(point.ms)} a frame (${ORIGINS[source]}).` };
     const best = finest(points);
     const moving = best ? `Not while moving: the finest known frame has ${errorNumber(best.error)} (${ORIGINS[source]}).` : LEARNING;
+    if (frame.still && frame.error <= target)
+        return { reached: !best, words: `${moving} The picture at rest has ${errorNumber(frame.error)} now.` };
     const { seconds, samples } = rest(target, frame);
     if (!Number.isFinite(seconds))
         return { reached: !best, words: `${moving} How long a resting camera takes is not known yet.` };

@@ -32,6 +32,7 @@ export class Goal {
     #frontier = { source: "learnt", points: [] };
     #frame = { ms: NaN, raw: NaN, error: NaN, denoised: NaN, samples: 1, accumulated: 0, still: false };
     #rested = {};     // of the last frame at rest, for rest(): moving ones may be smaller
+    #measured = null; // error of the denoised picture at rest
     #kind = "as_set"; #kinds = [];
     #stops = [];
     #radios = new Map();
@@ -69,6 +70,7 @@ export class Goal {
         this.#nodes.kinds.replaceChildren(...[...this.#radios].map(([kind, input]) => element("label", {}, input, element("span", {}, KINDS[kind].name))));
         this.#stops = [];
         this.#rested = {};
+        this.#measured = null;
     }
 
     /** What holds on the server. */
@@ -89,13 +91,19 @@ export class Goal {
     frame({ measured, ...frame }) {
         const { denoiser, refine_crossover = 0, still_samples = Infinity } = this.#values;
         const crossover = denoiser === "svgf" ? refine_crossover : 0;
-        const known = (told) => Object.fromEntries(Object.entries(told).filter(([, value]) => !Number.isNaN(value)));
-        this.#frame = { ...this.#frame, ...known(frame), crossover, most: still_samples };
-        const behind = measured >= 0 ? measured : denoisedIn(this.#frame);
-        Object.assign(this.#frame, known({ denoised: frame.still ? behind : frame.error }));
-        const { ms, raw, denoised, samples } = this.#frame;
-        if (frame.still)
-            this.#rested = { ms, raw, denoised, samples };
+        const known = Object.entries(frame).filter(([, value]) => !Number.isNaN(value));
+        this.#frame = { ...this.#frame, ...Object.fromEntries(known), crossover, most: still_samples };
+        const { ms, raw, error, samples } = this.#frame;
+        if (!frame.still) {
+            this.#frame.denoised = error;
+            return;
+        }
+        // Measured once, at rest, it is known better than any later prediction.
+        this.#measured = measured >= 0 ? measured : this.#measured;
+        const denoised = this.#measured ?? denoisedIn(this.#frame);
+        if (!Number.isNaN(denoised))
+            this.#frame.denoised = denoised;
+        this.#rested = { ms, raw, samples, denoised: this.#frame.denoised };
     }
 
     #choose(kind) {
@@ -179,7 +187,7 @@ export class Goal {
             this.#showSlider();
         } else
             word.textContent = this.#kind === "unlimited" ? reachOfPatience(this.#frame, this.#values.still_samples)
-                : "Settings hold as they are below.";
+                : "Settings stay as you set them. Choose a time or an accuracy, and the server sets them for you.";
     }
 
     /** The scale changes when it must show more, never while it is in somebody's hand. */

@@ -203,7 +203,7 @@ function showFrame(frame) {
     statistics.frameShown(header, bytes, performance.now());
     overlay.show(frame);
     timeBar.frame(header);
-    accuracy.frame(header);
+    accuracy.frame(header, frame.passes);
     wipe.place();
     at("app").dataset.state = stateOf(header);
 }

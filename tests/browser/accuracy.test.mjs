@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
-    bestWithin, cheapest, cheapestReaching, denoisedIn, duration, errorAfter, errorNumber, errorOf, finest, frontierOf, interval, reachOfError, reachOfPatience,
+    bestWithin, cheapest, cheapestReaching, denoisedIn, duration, errorAfter, errorNumber, errorOf, finest, frontierOf, interval, oneMore, reachOfError, reachOfPatience,
     reachOfTime, rest,
 } from "../../client/web/frontier.js";
 import { rangeFor, ticks } from "../../client/web/frontier_plot.js";
@@ -90,11 +90,23 @@ test("what is typed is a number above 0, in range or brought there, and why is s
     assert.deepEqual(wished(NaN, setting, "relMSE"), { value: null, problem: "That is no number: a number above 0 is needed, at most 10 relMSE." });
 });
 
+test("one more sample takes as long as each did, and shrinks noise alone", () => {
+    const header = { raw_error: 0.09, predicted_error: 0.005, noise_error: 0.004, samples_per_pixel: 2, flags: { still: false } };
+    const { ms, raw, error } = oneMore(header, 30); // 2 / 3 of the raw error; the noise in the picture falls by a third of itself
+    assert.equal(ms, 15);
+    near(raw, 0.06);
+    near(error, 0.001 + 0.004 * 2 / 3);
+    assert.ok(Number.isNaN(oneMore({ ...header, flags: { still: true } }, 30).error));
+    assert.ok(Number.isNaN(oneMore({ ...header, raw_error: NaN }, NaN).ms));
+});
+
 test("a time budget below the cheapest frame says what that takes", () => {
     assert.deepEqual(reachOfTime(REPORT, 12), { reached: false, words: "Not reachable on this device: the cheapest frame takes 14 ms (from a report)." });
     const fits = reachOfTime(REPORT, 60);
     assert.ok(fits.reached);
     assert.match(fits.words, /“whole” fits: 50 ms, error 0\.004 \(from a report\)/);
+    assert.match(reachOfTime(REPORT, 60).words, /With so little room the server may stay below it\.$/); // 50 is more than 0.8 * 60
+    assert.doesNotMatch(reachOfTime(REPORT, 65).words, /room/);
     assert.match(reachOfTime(LEARNT, 20).words, /“half” fits: 14 ms, its error not known yet \(learnt while running\)/);
     assert.deepEqual([reachOfTime(NOTHING, 1).reached, /learnt/.test(reachOfTime(NOTHING, 1).words)], [true, true]);
 });
@@ -107,6 +119,9 @@ test("an accuracy that no moving frame has says how long the camera must rest", 
     const patience = reachOfError(REPORT, 0.0001, FRAME); // 2000 frames: 4000 samples, 80 s
     assert.match(patience.words, /after 80 s still\. That is 4,000 samples a pixel, but refining ends at 1,000: choose “unlimited”/);
     assert.match(reachOfError(REPORT, 0.001, { ...FRAME, raw: NaN }).words, /not known yet/);
+    const there = { ...FRAME, still: true, error: 0.0009 };
+    assert.match(reachOfError(REPORT, 0.001, there).words, /Not while moving.*The picture at rest has 9e-4 now\./);
+    assert.match(reachOfError(REPORT, 0.001, { ...there, error: 0.0011 }).words, /after 8\.0 s still/);
     assert.equal(reachOfError(NOTHING, 0.001, FRAME).reached, true); // nothing is barred before anything is known
     assert.match(reachOfError(NOTHING, 0.001, FRAME).words, /being learnt\. Reachable after 8\.0 s still/);
 });
@@ -123,6 +138,7 @@ test("numbers and durations are short", () => {
     assert.deepEqual([0.0123, 0.00123, 0.000123, 1e-4, 0, 3.14159, 120.4, NaN].map((x) => errorNumber(x)), ["0.012", "0.0012", "1.2e-4", "1e-4", "0", "3.1", "120", "–"]);
     assert.deepEqual([0.01, 0.84, 9.96, 44.6, 600, 9000].map(duration), ["0.1 s", "0.8 s", "10.0 s", "45 s", "10 min", "3 h"]);
     assert.equal(interval({ lower: 0.001, upper: 0.002 }, "(", ")"), "(0.001 to 0.002)");
+    assert.equal(interval({ lower: 0.8618, upper: 0.8642 }), "0.862 to 0.864"); // two digits would make it a point
     assert.equal(interval({ lower: NaN, upper: 0.002 }, "("), "");
 });
 

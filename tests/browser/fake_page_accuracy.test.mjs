@@ -29,6 +29,7 @@ test("numbers with their intervals, the formula, and the frontier with the live 
     await says("#accuracy-rows [data-row=measured]", /Measured error0\.00\d+0\.00\d+ to 0\.00\d+, against 12 samples/);
     assert.match(await cell("noise").textContent(), /0\.00\d+the rest is blur/);
     assert.match(await cell("inside").textContent(), /320 × 180full size/);
+    assert.match(await cell("more").textContent(), /One more sample\+ \d+(\.\d+)? msraw 0\.\d+ to 0\.\d+/);
     assert.match(await cell("samples").textContent(), /1a frame, 24 in all/);
     assert.match(await cell("drawing").textContent(), /\d\d\.\d ms/);
     assert.match(await cell("encoding").textContent(), /2\.1 ms/);
@@ -42,6 +43,7 @@ test("numbers with their intervals, the formula, and the frontier with the live 
     await page.keyboard.down("ArrowRight");
     await says("#accuracy-rows [data-row=measured]", /–while still/);
     await says("#accuracy-rows [data-row=predicted]", /0\.00\d+ to 0\.00\d+/);
+    await says("#accuracy-rows [data-row=more]", /error 0\.00\d+ to 0\.00\d+, raw 0\.\d+ to 0\.\d+/);
     assert.ok(await plotted(0xe6, 0x9f, 0x00) > 30, "the moving live point is drawn");
     await page.keyboard.up("ArrowRight");
     server.say({ type: "frontier", source: "learnt", points: [{ label: "only", settings: {}, ms: 20 }] });
@@ -144,6 +146,9 @@ test("a picture traced at a smaller size is shown at its full one", async () => 
     assert.deepEqual(await page.evaluate(() => [document.getElementById("picture").width, document.getElementById("picture").height]), [320, 180]);
     await says("#accuracy-rows [data-row=inside]", /160 × 90of 320 × 180/);
     await says("[data-stat=picture]", /160 × 90 of 320 × 180/);
+    await says("#accuracy-rows [data-row=predicted]", /before it is enlarged/);
+    const outside = await page.locator("#overlay td").evaluateAll((cells) => cells.filter((cell) => cell.getBoundingClientRect().right > document.getElementById("overlay").getBoundingClientRect().right).length);
+    assert.equal(outside, 0, "nothing of the statistics is cut off");
 });
 
 test("overlays that the server has are a press away, with the scale of their colours", async () => {
