@@ -10,8 +10,8 @@
 
 namespace farlight::client {
 
-/// Of each file that a scene (.json, .gltf) names and that is there: name, bytes and time of its
-/// last change, for the journal's key. Not of files that those name in turn.
+/// Of each file that a scene (.json, .gltf, .glb) names and that is there, and of those that such a
+/// file names in turn: path, bytes and time of its last change, for the journal's key.
 nlohmann::json named_files(const std::filesystem::path& scene);
 
 class Journal {
