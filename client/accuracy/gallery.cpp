@@ -1,10 +1,11 @@
 // All points share their scales, so that colours can be compared.
 #include "client/accuracy/gallery.h"
 
-#include "client/accuracy/heat_map.h"
+#include "client/accuracy/picture_text.h"
 #include "client/metrics/display.h"
 #include "client/metrics/ensemble.h"
 #include "client/metrics/flip.h"
+#include "client/metrics/heat_map.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,16 +15,17 @@ namespace {
 
 using nlohmann::json;
 
-/// Of logarithmic scales: from the top, which a thousandth of the pixels exceed, three decades.
+/// Scales end at what one pixel in a hundred exceeds: a lamp's rim may be wrong by a thousand times
+/// its darker side. Logarithmic ones have three decades below that.
+constexpr double kBelowEnd = 0.99;
 constexpr double kDecades = 1e3;
-constexpr double kBelowTop = 0.999;
 constexpr int kBarPixels = 128;
 
 /// One point's maps before they are coloured, a value a pixel.
 struct Maps {
     std::vector<float> frame;  ///< Linear RGB.
     std::vector<float> absolute;  ///< |x - r|
-    std::vector<float> bias;  ///< mean(x) - r
+    std::vector<float> bias;  ///< (mean(x) - r) / (r + 0.01) of luminance.
     std::vector<float> deviation;  ///< Of x over the seeds.
     std::vector<float> flip;
 };
@@ -32,20 +34,34 @@ Maps maps_of(const std::vector<std::vector<float>>& pictures, const ReferencePic
 {
     std::vector<std::span<const float>> runs(pictures.begin(), pictures.end());
     Maps maps{.frame = pictures.front()};
-    std::vector<float> absolute = pictures.front();
-    std::vector<float> bias = mean_picture(runs);
+    maps.absolute = absolute_differences(maps.frame, reference.mean);
+    maps.bias = relative_differences(mean_picture(runs), reference.mean);
     std::vector<float> deviation = variance_picture(runs);
-    for (std::size_t i = 0; i < absolute.size(); ++i) {
-        absolute[i] = std::abs(absolute[i] - reference.mean[i]);
-        bias[i] -= reference.mean[i];
-        deviation[i] = std::sqrt(deviation[i]);
-    }
-    maps.absolute = channel_means(absolute);
-    maps.bias = channel_means(bias);
-    maps.deviation = channel_means(deviation);
+    for (float& value : deviation)
+        value = std::sqrt(value);
+    maps.deviation = absolute_differences(deviation, std::vector<float>(deviation.size()));
     maps.flip =
         ldr_flip(display_of_linear(maps.frame), display_of_linear(reference.mean), reference.size);
     return maps;
+}
+
+/// The value that `share` of the values do not exceed; 0 of none.
+double quantile_of(std::vector<float> values, double share)
+{
+    if (values.empty())
+        return 0;
+    const auto at = values.begin()
+        + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return static_cast<double>(*at);
+}
+
+/// Adds the sizes of the values that count.
+void append_sizes(std::vector<float>& to, const std::vector<float>& values, Mask counts)
+{
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (counts.empty() || counts[i] != 0)
+            to.push_back(std::abs(values[i]));
 }
 
 std::string shown(std::span<const float> linear, ImageSize size)
@@ -80,16 +96,15 @@ json draw_gallery(Rig& rig, const std::vector<SweepPoint>& points, const ErrorPl
     const ReferencePicture& reference)
 {
     std::vector<Maps> all;
-    double top = 0;
-    double bound = 0;
+    std::vector<float> differences;
+    std::vector<float> biases;
     for (const SweepPoint& point : points) {
         all.push_back(maps_of(draw_seeds(rig, point, plan), reference));
-        top = std::max(top, quantile_of(all.back().absolute, kBelowTop));
-        std::vector<float> sizes = all.back().bias;
-        for (float& value : sizes)
-            value = std::abs(value);
-        bound = std::max(bound, quantile_of(std::move(sizes), kBelowTop));
+        append_sizes(differences, all.back().absolute, reference.counts);
+        append_sizes(biases, all.back().bias, reference.counts);
     }
+    double top = quantile_of(std::move(differences), kBelowEnd);
+    double bound = quantile_of(std::move(biases), kBelowEnd);
     // A scene without any error still has scales.
     top = top > 0 ? top : 1;
     bound = bound > 0 ? bound : 1;

@@ -2,8 +2,8 @@
 #include "client/accuracy/effect_costs.h"
 #include "client/accuracy/errors.h"
 #include "client/accuracy/gallery.h"
-#include "client/accuracy/heat_map.h"
 #include "client/accuracy/journal.h"
+#include "client/accuracy/picture_text.h"
 #include "client/accuracy/progress.h"
 #include "client/accuracy/response.h"
 #include "client/accuracy/times.h"
@@ -75,22 +75,61 @@ TEST_F(JournalTest, AnotherFileIsNoJournal)
     EXPECT_THAT(Journal(file, key).finding(), HasSubstr("no journal"));
 }
 
-TEST_F(JournalTest, AFileThatASceneNamesIsInTheKey)
+class NamedFilesTest : public testing::Test {
+protected:
+    NamedFilesTest() { std::filesystem::create_directories(folder); }
+    ~NamedFilesTest() override { std::filesystem::remove_all(folder); }
+
+    void write(const std::string& name, const std::string& content) const
+    {
+        std::ofstream(folder / name, std::ios::binary) << content;
+    }
+    /// Changes the file's time, and whether that is seen.
+    bool sees_change_of(const std::string& name) const
+    {
+        const json before = named_files(folder / "scene.json");
+        EXPECT_EQ(named_files(folder / "scene.json"), before);
+        const auto changed = std::filesystem::last_write_time(folder / name);
+        std::filesystem::last_write_time(folder / name, changed + std::chrono::seconds(2));
+        return named_files(folder / "scene.json") != before;
+    }
+
+    std::filesystem::path folder = std::filesystem::path(testing::TempDir())
+        / ("farlight_named_" + std::to_string(::getpid()));
+};
+
+TEST_F(NamedFilesTest, OfASceneAreInTheKey)
 {
-    const std::filesystem::path image = file.string() + ".png";
-    std::ofstream(image) << "1234";
-    std::ofstream(file) << json{
-        {"name", "a room"}, {"textures", {{{"file", image.filename().string()}, {"scale", 2}}}}};
-    const json before = named_files(file);
-    ASSERT_EQ(before.size(), 1U) << before;
-    EXPECT_EQ(before[0][1], 4);
-    EXPECT_EQ(named_files(file), before);
-    const auto changed = std::filesystem::last_write_time(image);
-    std::filesystem::last_write_time(image, changed + std::chrono::seconds(2));
-    EXPECT_NE(named_files(file), before);
-    std::ofstream(file) << "no JSON";
-    EXPECT_TRUE(named_files(file).empty());
-    std::filesystem::remove(image);
+    write("a.png", "1234");
+    write("scene.json", R"({"name": "a room", "textures": [{"file": "a.png", "scale": 2}]})");
+    const json files = named_files(folder / "scene.json");
+    ASSERT_EQ(files.size(), 1U) << files;
+    EXPECT_EQ(files[0][1], 4);
+    EXPECT_TRUE(sees_change_of("a.png"));
+    write("scene.json", "no JSON");
+    EXPECT_TRUE(named_files(folder / "scene.json").empty());
+}
+
+TEST_F(NamedFilesTest, OfMeshFilesAreInTheKeyToo)
+{
+    const std::string document =
+        R"({"images": [{"uri": "red%20brick.png"}], "buffers": [{"uri": "room.bin"}]})";
+    write("red brick.png", "1");
+    write("room.bin", "2");
+    write("room.gltf", document);
+    write("scene.json", R"({"objects": [{"mesh": {"file": "room.gltf"}}]})");
+    EXPECT_TRUE(sees_change_of("red brick.png"));
+    EXPECT_TRUE(sees_change_of("room.bin"));
+    EXPECT_TRUE(sees_change_of("room.gltf"));
+    const auto length = static_cast<char>(document.size());
+    write("room.glb",
+        std::string("glTF\2\0\0\0\0\0\0\0", 12) + length + std::string("\0\0\0JSON", 7) + document
+            + "binary");
+    write("scene.json", R"({"objects": [{"mesh": {"file": "room.glb"}}]})");
+    EXPECT_TRUE(sees_change_of("room.bin"));
+    EXPECT_EQ(named_files(folder / "room.glb").size(), 2U);
+    write("scene.json", R"({"a": "scene.json", "b": "room.gltf"})");  // itself: no end of it
+    EXPECT_EQ(named_files(folder / "scene.json").size(), 4U);
 }
 
 TEST(Enlarged, KeepsAConstantAndInterpolatesBetweenCentres)
@@ -106,7 +145,7 @@ TEST(Enlarged, KeepsAConstantAndInterpolatesBetweenCentres)
     EXPECT_THAT(red, ElementsAre(0.0F, 0.25F, 0.75F, 1.0F));
 }
 
-TEST(HeatMap, Base64IsAsTheStandardSays)  // RFC 4648, section 10
+TEST(PictureText, Base64IsAsTheStandardSays)  // RFC 4648, section 10
 {
     const auto encoded = [](const std::string& text) {
         return base64(std::vector<std::uint8_t>(text.begin(), text.end()));
@@ -116,31 +155,6 @@ TEST(HeatMap, Base64IsAsTheStandardSays)  // RFC 4648, section 10
     EXPECT_EQ(encoded("fo"), "Zm8=");
     EXPECT_EQ(encoded("foo"), "Zm9v");
     EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
-}
-
-TEST(HeatMap, PalettesHoldTheirEnds)
-{
-    const std::vector<float> shares{-1, 0, 0.5F, 1, 2, std::numeric_limits<float>::quiet_NaN()};
-    EXPECT_THAT(colored(shares, Palette::kDiverging),
-        ElementsAre(0x00, 0x72, 0xb2, 0x00, 0x72, 0xb2, 0xff, 0xff, 0xff, 0xd5, 0x5e, 0x00, 0xd5,
-            0x5e, 0x00, 0x00, 0x72, 0xb2));
-    // In grey they ascend.
-    for (const Palette palette : {Palette::kMagma, Palette::kViridis}) {
-        double before = -1;
-        for (int eighth = 0; eighth <= 8; ++eighth) {
-            const auto rgb = colored(std::vector{static_cast<float>(eighth) / 8}, palette);
-            const double grey = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-            EXPECT_GT(grey, before);
-            before = grey;
-        }
-    }
-}
-
-TEST(HeatMap, LogarithmicAndSignedShares)
-{
-    EXPECT_THAT(log_shares(std::vector{0.0F, 0.01F, 0.1F, 1.0F}, 0.01, 1),
-        ElementsAre(0, testing::FloatNear(0, 1e-6F), testing::FloatNear(0.5F, 1e-6F), 1));
-    EXPECT_THAT(signed_shares(std::vector{-2.0F, 0.0F, 1.0F}, 2), ElementsAre(0, 0.5F, 0.75F));
 }
 
 TEST(Gallery, SpreadKeepsBothEnds)

@@ -1,8 +1,9 @@
 // Colours of errors.
 #include "client/metrics/heat_map.h"
 
-#include <cmath>
+#include <array>
 #include <gmock/gmock.h>
+#include <limits>
 
 namespace farlight {
 namespace {
@@ -10,32 +11,46 @@ namespace {
 using namespace client;
 using testing::ElementsAre;
 
-/// Five of matplotlib's 256 colours; the polynomial may be 4 of 255 levels off.
+/// Five of matplotlib's 256 colours; between the palette's ten a level or two is lost.
 TEST(HeatMap, MagmaIsMagma)
 {
     struct Point {
         int i;
-        Shade shade;
+        std::array<double, 3> shade;
     };
     for (const auto& [i, shade] :
         {Point{0, {0.001462, 0.000466, 0.013866}}, Point{64, {0.316654, 0.071690, 0.485380}},
             Point{128, {0.716387, 0.214982, 0.475290}}, Point{192, {0.986700, 0.535582, 0.382210}},
             Point{255, {0.987053, 0.991438, 0.749504}}}) {
-        EXPECT_NEAR(magma(i / 255.0).r, shade.r, 0.02) << i;
-        EXPECT_NEAR(magma(i / 255.0).g, shade.g, 0.02) << i;
-        EXPECT_NEAR(magma(i / 255.0).b, shade.b, 0.02) << i;
+        const auto bytes = colored(std::vector{static_cast<float>(i) / 255}, Palette::kMagma);
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(bytes[c] / 255.0, shade[c], 0.02) << i << " " << c;
     }
 }
 
-TEST(HeatMap, MagmaGetsBrighter)
+TEST(HeatMap, PalettesHoldTheirEnds)
 {
-    double last = -1;
-    for (int i = 0; i <= 100; ++i) {
-        const Shade shade = magma(i / 100.0);
-        const double now = luminance(shade.r, shade.g, shade.b);
-        EXPECT_GE(now, last) << i;
-        last = now;
+    const std::vector<float> shares{-1, 0, 0.5F, 1, 2, std::numeric_limits<float>::quiet_NaN()};
+    EXPECT_THAT(colored(shares, Palette::kDiverging),
+        ElementsAre(0x00, 0x72, 0xb2, 0x00, 0x72, 0xb2, 0xff, 0xff, 0xff, 0xd5, 0x5e, 0x00, 0xd5,
+            0x5e, 0x00, 0x00, 0x72, 0xb2));
+    // In grey they ascend.
+    for (const Palette palette : {Palette::kMagma, Palette::kViridis}) {
+        double before = -1;
+        for (int eighth = 0; eighth <= 8; ++eighth) {
+            const auto rgb = colored(std::vector{static_cast<float>(eighth) / 8}, palette);
+            const double grey = 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+            EXPECT_GT(grey, before);
+            before = grey;
+        }
     }
+}
+
+TEST(HeatMap, LogarithmicAndSignedShares)
+{
+    EXPECT_THAT(log_shares(std::vector{0.0F, 0.01F, 0.1F, 1.0F}, 0.01, 1),
+        ElementsAre(0, testing::FloatNear(0, 1e-6F), testing::FloatNear(0.5F, 1e-6F), 1));
+    EXPECT_THAT(signed_shares(std::vector{-2.0F, 0.0F, 1.0F}, 2), ElementsAre(0, 0.5F, 0.75F));
 }
 
 TEST(HeatMap, SignsHaveColoursAndNoneIsWhite)

@@ -4,9 +4,11 @@ const MAPS = [
     ["frame", "the frame, as shown"],
     ["absolute", "|x \u2212 r|, one frame"],
     ["flip", "FLIP, one frame"],
-    ["bias", "mean of the seeds \u2212 r"],
+    ["bias", "bias: (mean of the seeds \u2212 r) / (r + 0.01)"],
     ["deviation", "deviation over the seeds"],
 ];
+
+const SCALE_WORDS = { flip: "", bias: " of luminance" };
 
 function scaleBar({ lower, upper, bar }) {
     return element("div", { class: "scale" }, element("span", {}, number(lower, 2)),
@@ -39,7 +41,7 @@ function galleryRow(point, gallery) {
 
 function gallerySection(host, gallery) {
     const scales = MAPS.slice(1).map(([key, caption]) =>
-        element("div", {}, element("span", { class: "caption" }, `${caption}${key === "flip" ? "" : ", linear radiance"}`), scaleBar(gallery.scales[key])));
+        element("div", {}, element("span", { class: "caption" }, `${caption}${SCALE_WORDS[key] ?? ", linear radiance"}`), scaleBar(gallery.scales[key])));
     host.append(element("div", { class: "scales" }, ...scales),
         element("div", { class: "pictures" }, element("h3", {}, "the reference r"), element("div", { class: "row" },
             element("figure", {}, element("img", { src: gallery.reference, alt: "the reference" })))), ...gallery.points.map((point) => galleryRow(point, gallery)));

@@ -85,7 +85,7 @@ function motionSection({ motion }) {
 
 function pictureSection(report) {
     gallerySection(section("gallery", "Frames and where they are wrong",
-        paragraph("Click any picture to see the reference in its place, again to go back. All frames share the scales.")), report.gallery);
+        paragraph("Click any picture to see the reference in its place, again to go back. All frames share the scales, whose ends one pixel in a hundred is beyond.")), report.gallery);
 }
 
 function tableSections(report) {
