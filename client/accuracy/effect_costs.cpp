@@ -2,8 +2,11 @@
 #include "client/accuracy/effect_costs.h"
 
 #include "client/metrics/ensemble.h"
+#include "client/metrics/turns.h"
 
+#include <array>
 #include <numeric>
+#include <optional>
 
 namespace farlight::client {
 namespace {
@@ -11,6 +14,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::chrono::seconds kCompileTimeout{30};
+constexpr int kPairs = 4;  // of turns with and without
 constexpr int kSettlingFrames = 6;  // histories fill; the picture's textures are made anew
 
 /// Takes the keys out of every material that has one of them.
@@ -31,12 +35,16 @@ json without_member(const json& document, const char* key)
     return document.contains(key) ? json{{key, nullptr}} : json();
 }
 
-/// Sums of passes of frames drawn now [ms].
-std::vector<double> take_turn(Rig& rig, int frames)
+void settle(Rig& rig)
 {
     for (int i = 0; i < kSettlingFrames; ++i)
         rig.draw();
-    std::vector<double> times;
+}
+
+/// Sums of passes of frames drawn now [ms].
+TurnValues take_turn(Rig& rig, int frames)
+{
+    TurnValues times;
     for (int i = 0; i < frames; ++i) {
         const auto header = rig.draw().header;
         times.push_back(std::accumulate(
@@ -47,35 +55,33 @@ std::vector<double> take_turn(Rig& rig, int frames)
     return times;
 }
 
-void append_to(std::vector<double>& all, const std::vector<double>& more)
-{
-    all.insert(all.end(), more.begin(), more.end());
-}
-
-/// Two states of scene or settings take turns, A B B A, without before with.
+/// Two states of scene or settings take turns, A B B A A B B A, without before with.
 class Contest {
 public:
     Contest(Rig& rig, int frames) : rig_(rig), frames_(frames) { }
 
     json measure(const std::function<void()>& with, const std::function<void()>& without)
     {
-        without();
-        append_to(without_, take_turn(rig_, frames_));
-        with();
-        append_to(with_, take_turn(rig_, 2 * frames_));
-        without();
-        append_to(without_, take_turn(rig_, frames_));
-        const RatioOfMedians ratio = ratio_of_medians(with_, without_);
-        return {{"ms_with", median(with_)}, {"ms_without", median(without_)},
-            {"ratio", ratio.ratio}, {"ratio_lower", ratio.interval.lower},
-            {"ratio_upper", ratio.interval.upper}};
+        std::array<std::vector<TurnValues>, 2> turns;
+        std::optional<std::size_t> shown;
+        for (int i = 0; i < 2 * kPairs; ++i) {
+            const std::size_t which = (i + 1) / 2 % 2 == 0 ? 0 : 1;
+            if (shown != which) {
+                (which == 0 ? without : with)();
+                settle(rig_);
+                shown = which;
+            }
+            turns[which].push_back(take_turn(rig_, frames_));
+        }
+        const Estimate ratio = ratio_of_turns(turns[1], turns[0]);
+        return {{"ms_with", median_of_turns(turns[1]).value},
+            {"ms_without", median_of_turns(turns[0]).value}, {"ratio", ratio.value},
+            {"ratio_lower", ratio.interval.lower}, {"ratio_upper", ratio.interval.upper}};
     }
 
 private:
     Rig& rig_;
     int frames_;
-    std::vector<double> with_;
-    std::vector<double> without_;
 };
 
 json row_of(Rig& rig, const EffectsPlan& plan, const json& patch, Mask counts)

@@ -11,7 +11,7 @@ namespace farlight::client {
 nlohmann::json removal_of(const std::string& effect, const nlohmann::json& document);
 
 struct EffectsPlan {
-    int frames = 8;  ///< Timed, of each of two turns a side.
+    int frames = 4;  ///< Timed, of each of four turns a side.
     int seeds = 4;  ///< Of the noise, at least 2.
     Settings settings;
     SweepPoint filtered;  ///< Timed.

@@ -129,14 +129,19 @@ std::filesystem::path folder_of(const std::filesystem::path& folder, std::size_t
 
 LightMotion motion_of_lamps(const json& document, const std::array<double, 3>& middle, int frames)
 {
-    LightMotion motion{
-        .what = "every lamp moves by about its own width", .patch = {}, .frames = frames};
+    LightMotion motion{.what = "", .patch = {}, .frames = frames};
     if (!document.is_object())
         return motion;
     json events = document.value("timeline", json::array());
     const std::size_t before = events.size();
     move_objects(document, motion, middle, events);
+    const std::size_t objects = events.size();
+    if (objects > before)
+        motion.what = "every lamp with a surface moves by about its own width";
     move_lights(document, motion, middle, events);
+    if (events.size() > objects)
+        motion.what += std::string(motion.what.empty() ? "" : " and ")
+            + "every point and spot light moves a quarter of the way to the scene's middle";
     if (events.size() > before)
         motion.patch["timeline"] = events;
     return motion;

@@ -8,7 +8,7 @@ namespace farlight::client {
 
 /// A motion of a scene's lamps that begins at time 0 and takes `frames` frames.
 struct LightMotion {
-    std::string what;  ///< "every lamp moves by about its own width"
+    std::string what;  ///< "every lamp with a surface moves by about its own width"
     nlohmann::json patch;  ///< For Session::edit(); null where the document names no such lamp.
     int frames = 8;
 };

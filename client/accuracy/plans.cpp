@@ -20,12 +20,12 @@ struct Effort {
 Effort effort_of(GridSize grid)
 {
     switch (grid) {
-    case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 4, 4};
+    case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 2, 4};
     case GridSize::kClassic:
-    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 8, 8};
+    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 4, 8};
     case GridSize::kNormal: break;
     }
-    return {32, 3, 16, 4, 64, 32, 24, 8};
+    return {32, 3, 16, 4, 64, 32, 12, 8};
 }
 
 /// Settings of everything that is drawn: time stands still, pixels are looked at in their middles

@@ -2,7 +2,7 @@
 #include "client/accuracy/times.h"
 
 #include "client/accuracy/errors.h"
-#include "client/metrics/bootstrap.h"
+#include "client/metrics/turns.h"
 
 #include <algorithm>
 
@@ -24,6 +24,20 @@ std::vector<double>& times_of_pass(FrameTimes& times, const std::string& name)
         if (known == name)
             return values;
     return times.passes.emplace_back(name, std::vector<double>()).second;
+}
+
+std::vector<TurnValues> by_turns(const FrameTimes& times)
+{
+    if (times.turns.empty())
+        return {times.passes_sum};
+    std::vector<TurnValues> turns;
+    auto first = times.passes_sum.begin();
+    for (const std::size_t frames : times.turns) {
+        const auto last = first + static_cast<std::ptrdiff_t>(frames);
+        turns.emplace_back(first, last);
+        first = last;
+    }
+    return turns;
 }
 
 FrameTimes take_turn(Rig& rig, const SweepPoint& point, const TimePlan& plan)
@@ -52,12 +66,13 @@ void FrameTimes::add(const protocol::FrameHeader& header)
     encode.push_back(kMsPerUs * header.encode_us);
 }
 
-void FrameTimes::append(const FrameTimes& other)
+void FrameTimes::append(const FrameTimes& turn)
 {
-    append_values(passes_sum, other.passes_sum);
-    append_values(whole, other.whole);
-    append_values(encode, other.encode);
-    for (const auto& [name, values] : other.passes)
+    turns.push_back(turn.passes_sum.size());
+    append_values(passes_sum, turn.passes_sum);
+    append_values(whole, turn.whole);
+    append_values(encode, turn.encode);
+    for (const auto& [name, values] : turn.passes)
         append_values(times_of_pass(*this, name), values);
 }
 
@@ -114,7 +129,7 @@ json summary_of(const FrameTimes& times)
     json passes = json::array();
     for (const auto& [name, values] : times.passes)
         passes.push_back({{"name", name}, {"ms", median(values)}});
-    json summary{{"ms", json_of(estimate_median(times.passes_sum))}, {"passes", passes},
+    json summary{{"ms", json_of(median_of_turns(by_turns(times)))}, {"passes", passes},
         {"encode_ms", median(times.encode)}, {"frames", times.passes_sum.size()}};
     if (!times.whole.empty())
         summary["whole_ms"] = median(times.whole);

@@ -22,9 +22,10 @@ struct FrameTimes {
     std::vector<double> whole;  ///< The whole frame by its own clock; empty: the server tells none.
     std::vector<double> encode;  ///< As JPEG, apart from all else.
     std::vector<std::pair<std::string, std::vector<double>>> passes;  ///< In execution order.
+    std::vector<std::size_t> turns;  ///< Frames of each appended turn; empty: all are of one.
 
     void add(const protocol::FrameHeader& header);
-    void append(const FrameTimes& other);
+    void append(const FrameTimes& turn);
 };
 
 nlohmann::json to_json(const FrameTimes& times);
@@ -35,7 +36,7 @@ std::vector<FrameTimes> measure_times(Rig& rig, const std::vector<SweepPoint>& p
     const TimePlan& plan, Journal& journal, Progress& progress);
 double work_of_times(const std::vector<SweepPoint>& points, const TimePlan& plan);
 
-/// Medians with 95 % intervals, as REPORT.md describes them.
+/// Medians, and the 95 % interval over turns of all passes together, as REPORT.md describes them.
 nlohmann::json summary_of(const FrameTimes& times);
 
 }  // namespace farlight::client

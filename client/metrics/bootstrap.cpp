@@ -76,12 +76,6 @@ RatioOfMedians ratio_of_medians(const std::vector<double>& a, const std::vector<
     return {median(a) / median(b), middle_of(std::move(ratios))};
 }
 
-Estimate estimate_median(const std::vector<double>& values)
-{
-    const RatioOfMedians r = ratio_of_medians(values, std::vector<double>(values.size(), 1));
-    return {r.ratio, r.interval};
-}
-
 Estimate estimate_mean(const std::vector<double>& values)
 {
     assert(!values.empty());

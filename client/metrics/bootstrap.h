@@ -29,9 +29,6 @@ struct RatioOfMedians {
 };
 RatioOfMedians ratio_of_medians(const std::vector<double>& a, const std::vector<double>& b);
 
-/// The median and its percentile interval, seeded likewise. At least 1 value.
-Estimate estimate_median(const std::vector<double>& values);
-
 /// The mean and its interval; one value has an endless one. See estimate_by_runs().
 Estimate estimate_mean(const std::vector<double>& values);
 

@@ -3,6 +3,7 @@
 #include "client/accuracy/errors.h"
 #include "client/accuracy/gallery.h"
 #include "client/accuracy/journal.h"
+#include "client/accuracy/moving_light.h"
 #include "client/accuracy/picture_text.h"
 #include "client/accuracy/progress.h"
 #include "client/accuracy/response.h"
@@ -310,6 +311,37 @@ TEST(Response, DimsEveryLightThatIsNamed)
     EXPECT_EQ(patch["environment"]["scale"], json({0.25, 0.25, 0.25}));
     EXPECT_TRUE(dimming(json()).patch.is_null());
     EXPECT_TRUE(dimming(json::parse(R"({"objects": []})")).patch.is_null());
+}
+
+TEST(Motion, MovesEveryLampThatHasAPlace)
+{
+    const json document = json::parse(R"({
+        "materials": {"lamp": {"emission": [4, 8, 0]}, "off": {"emission": [0, 0, 0]}},
+        "objects": [
+            {"material": "lamp", "quad": {"corner": [0, 5, 0], "edge_u": [2, 0, 0], "edge_v": [0, 0, 1]}},
+            {"name": "ball", "material": "lamp", "sphere": {"center": [4, 0, 0], "radius": 0.5}},
+            {"name": "dark", "material": "off", "sphere": {"center": [0, 0, 0], "radius": 1}}],
+        "lights": {"bulb": {"point": {"position": [0, 8, 0]}}, "sun": {"directional": {}}},
+        "timeline": [{"at": 1, "light": "sun", "on": false}]})");
+    const LightMotion motion = motion_of_lamps(document, {0, 0, 0}, 8);
+    const json& events = motion.patch["timeline"];
+    ASSERT_EQ(events.size(), 4U) << events;
+    EXPECT_EQ(events[0], document["timeline"][0]);
+    EXPECT_EQ(events[1]["object"], "lamp, object 1");
+    EXPECT_EQ(motion.patch["objects"][0]["name"], "lamp, object 1");
+    EXPECT_EQ(motion.patch["objects"].size(), 3U);
+    EXPECT_EQ(events[1]["move"], json({2, -1, 0}));  // its width along itself, half of it off
+    EXPECT_EQ(events[1]["over"], 0.25);
+    EXPECT_EQ(events[2]["move"], json({-1, 0, 0}));
+    EXPECT_EQ(events[3]["move"], json({0, -2, 0}));
+    EXPECT_TRUE(motion_of_lamps(json(), {0, 0, 0}, 8).patch.is_null());
+    EXPECT_TRUE(motion_of_lamps(json::parse(R"({"objects": []})"), {}, 8).patch.is_null());
+    // Objects by name: nothing is to be named.
+    const json named = json::parse(R"({"materials": {"lamp": {"emission": [1, 1, 1]}}, "objects":
+        {"a": {"material": "lamp", "disk": {"center": [0, 0, 0], "normal": [0, -1, 0], "radius": 1}}}})");
+    const json patch = motion_of_lamps(named, {0, 0, 0}, 8).patch;
+    EXPECT_EQ(patch["timeline"][0]["object"], "a");
+    EXPECT_FALSE(patch.contains("objects"));
 }
 
 TEST(EffectCosts, PatchesTakeAnEffectOut)

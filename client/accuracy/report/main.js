@@ -98,7 +98,7 @@ function tableSections(report) {
 function methodSection(report) {
     const { timing, timing_check: check, slope, averaging } = report;
     const items = [
-        `Times are sums of pass times on the device as frames tell them, medians with 95 % bootstrap intervals. The points took turns in ${timing.rounds} rounds, forth and back (A B B A); of each turn ${timing.settling_frames} frames settled and ${timing.frames_a_turn} counted. Clocks are not locked. Encoding (JPEG) is apart.`,
+        `Times are sums of pass times on the device as frames tell them, medians with 95 % intervals over turns (Student's t on their medians' logarithms). The points took turns in ${timing.rounds} rounds, forth and back (A B B A); of each turn ${timing.settling_frames} frames settled and ${timing.frames_a_turn} counted. Clocks are not locked. Encoding (JPEG) is apart.`,
         check.points
             ? `The sum of the passes differs from the whole frame by at most ${percent(check.worst)} (tolerance ${percent(check.tolerance)}, exceeded by ${check.beyond} of ${check.points} points).`
             : "The server does not tell the time of whole frames, so pass times could not be checked against them.",
