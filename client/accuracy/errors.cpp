@@ -4,6 +4,7 @@
 #include "client/metrics/display.h"
 #include "client/metrics/ensemble.h"
 #include "client/metrics/flip.h"
+#include "client/picture_file.h"
 
 #include <algorithm>
 
@@ -42,6 +43,29 @@ double mean_over(const Pictures& pictures, const ReferencePicture& reference, Me
     for (const auto& picture : pictures)
         sum += metric(picture, reference.mean, reference.counts);
     return sum / static_cast<double>(pictures.size());
+}
+
+constexpr const char* kAveragedName = "averaged_";
+
+std::filesystem::path averaged_file(const std::filesystem::path& folder, int seed, int frames)
+{
+    return folder / (kAveragedName + std::to_string(seed) + "_" + std::to_string(frames) + ".pfm");
+}
+
+/// The last file of a seed appears when the others are there, and is there whole or not at all.
+void draw_averaged(
+    Rig& rig, int seed, const std::vector<int>& after, const std::filesystem::path& folder)
+{
+    rig.choose({{"seed", seed}});
+    for (int frames = 1; frames <= after.back(); ++frames) {
+        const Frame frame = rig.draw(/*cut=*/frames == 1);
+        if (std::find(after.begin(), after.end(), frames) == after.end())
+            continue;
+        const std::filesystem::path file = averaged_file(folder, seed, frames);
+        const std::filesystem::path unfinished = averaged_file(folder, seed, 0);
+        write_picture(unfinished, linear_picture(frame));
+        std::filesystem::rename(unfinished, file);
+    }
 }
 
 }  // namespace
@@ -89,23 +113,39 @@ json measured_error(const Pictures& pictures, const ReferencePicture& reference,
 }
 
 std::map<int, json> averaging_errors(Rig& rig, const ErrorPlan& plan,
-    const ReferencePicture& reference, const std::vector<int>& after)
+    const ReferencePicture& reference, const std::vector<int>& after,
+    const std::filesystem::path& folder)
 {
-    std::map<int, Pictures> pictures;
+    std::filesystem::create_directories(folder);
     rig.choose(plan.settings);
     rig.choose({{"denoiser", kAveraging}, {"samples_per_pixel", 1}});
-    for (int seed = 1; seed <= plan.seeds; ++seed) {
-        rig.choose({{"seed", seed}});
-        for (int frames = 1; frames <= after.back(); ++frames) {
-            const Frame frame = rig.draw(/*cut=*/frames == 1);
-            if (std::find(after.begin(), after.end(), frames) != after.end())
-                pictures[frames].push_back(linear_picture(frame).linear);
-        }
-    }
+    for (int seed = 1; seed <= plan.seeds; ++seed)
+        if (!std::filesystem::exists(averaged_file(folder, seed, after.back())))
+            draw_averaged(rig, seed, after, folder);
     std::map<int, json> errors;
-    for (const auto& [frames, of_all_seeds] : pictures)
-        errors[frames] = measured_error(of_all_seeds, reference, plan.flip_seeds);
+    for (const int frames : after) {
+        Pictures pictures;
+        for (int seed = 1; seed <= plan.seeds; ++seed)
+            pictures.push_back(read_picture(averaged_file(folder, seed, frames)).linear);
+        errors[frames] = measured_error(pictures, reference, plan.flip_seeds);
+    }
+    remove_averaged(folder);
     return errors;
+}
+
+void remove_averaged(const std::filesystem::path& folder)
+{
+    if (!std::filesystem::is_directory(folder))
+        return;
+    std::vector<std::filesystem::path> ours;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".pfm"
+            && entry.path().filename().string().starts_with(kAveragedName))
+            ours.push_back(entry.path());
+    for (const std::filesystem::path& file : ours)
+        std::filesystem::remove(file);
+    if (std::filesystem::is_empty(folder))
+        std::filesystem::remove(folder);
 }
 
 double work_of_averaging(const ErrorPlan& plan, const std::vector<int>& after)

@@ -5,6 +5,8 @@
 #include "client/accuracy/reference.h"
 #include "client/metrics/bootstrap.h"
 
+#include <filesystem>
+
 namespace farlight::client {
 
 struct ErrorPlan {
@@ -25,9 +27,13 @@ nlohmann::json measured_error(const std::vector<std::vector<float>>& pictures,
     const ReferencePicture& reference, int flip_seeds);
 
 /// Error of the averaging denoiser after each number of frames in `after` (ascending), 1 sample a
-/// frame: by number of frames, as measured_error() gives it.
+/// frame: by number of frames, as measured_error() gives it. The pictures, which are many, lie in
+/// `folder` meanwhile, where those of an interrupted run are found again; it is gone afterwards.
 std::map<int, nlohmann::json> averaging_errors(Rig& rig, const ErrorPlan& plan,
-    const ReferencePicture& reference, const std::vector<int>& after);
+    const ReferencePicture& reference, const std::vector<int>& after,
+    const std::filesystem::path& folder);
+/// Removes what an interrupted averaging_errors() left in `folder`, and nothing else.
+void remove_averaged(const std::filesystem::path& folder);
 double work_of_averaging(const ErrorPlan& plan, const std::vector<int>& after);
 
 /// {"value", "lower", "upper"}

@@ -66,6 +66,7 @@ public:
             remove_batches(after_step.parent_path());
             remove_batches(after_step);
             remove_moving_reference(moments_folder());
+            remove_averaged(averaged_folder());
         }
         std::filesystem::create_directories(after_step);
     }
@@ -150,6 +151,7 @@ private:
     static std::string motion_name(const SweepPoint& point) { return "motion " + point.id(); }
 
     bool moves() const { return !motion_.patch.is_null() && welcome().edits; }
+    std::filesystem::path averaged_folder() const { return options_.out / "averaged"; }
     std::filesystem::path moments_folder() const { return options_.out / "reference"; }
 
     void plan_motion()
@@ -190,8 +192,8 @@ private:
         progress_.phase("error of averaged frames");
         const json averaging = kept("averaging", [&] {
             json rows = json::array();
-            for (const auto& [frames, error] : averaging_errors(
-                     *rig_, plans_.error, *reference_, averaged_frames(options_.extent.grid)))
+            for (const auto& [frames, error] : averaging_errors(*rig_, plans_.error, *reference_,
+                     averaged_frames(options_.extent.grid), averaged_folder()))
                 rows.push_back({frames, error});
             return rows;
         });

@@ -53,6 +53,10 @@ class Accuracy(unittest.TestCase):
         self.assertGreaterEqual(self.kept, 3)
         self.assertIn(f"going on: {self.kept} measurements are done", self.resumed.stderr)
 
+    def test_no_picture_of_averaged_frames_is_left(self):
+        self.assertEqual(len(self.report["averaging"]["points"]), 3)
+        self.assertFalse((OUT / "averaged").exists())
+
     def test_plain_path_tracing_has_slope_minus_one(self):
         # The mean over seeds is known to about 2.3 %, the slope over 1 to 16 samples then to 0.012:
         # another driver's numbers fail this by chance in less than one of 10,000 cases.
