@@ -276,7 +276,7 @@ struct Frontier {
 
     FrontierSource source = FrontierSource::kLearnt;
     std::vector<FrontierPoint> points;  ///< Ascending in `ms`, descending in error.
-    std::optional<std::string> reason;  ///< Why a report that the server has is not the source.
+    std::optional<std::string> reason;  ///< Why the server's report is not used, or differs.
 
     bool operator==(const Frontier&) const = default;
 

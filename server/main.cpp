@@ -106,12 +106,23 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+FrontierReport for_this(const FrontierReport& read, const RendererDescription& description)
+{
+    FrontierReport report =
+        report_for(read, {description.scene_name, description.triangles, description.lights},
+            description.gl_renderer);
+    const auto otherwise = otherwise_measured(report, description.default_extent);
+    spdlog::info("frontier: {} points of {}{}", report.points.size(), report.file,
+        otherwise ? ", " + *otherwise : "");
+    return report;
+}
+
 int serve(const Flags& flags)
 {
     StreamOptions stream = flags.stream;
+    std::optional<FrontierReport> frontier;
     if (!flags.frontier.empty())
-        stream.frontier =
-            std::make_shared<const FrontierReport>(read_frontier_report(flags.frontier));
+        frontier = read_frontier_report(flags.frontier);  // first: scenes take long to load
     SceneDocument document = SceneDocument::load(flags.scene);
     Renderer renderer(document.scene(), flags.renderer);
     const auto [width, height] = renderer.description()->default_extent;
@@ -122,6 +133,9 @@ int serve(const Flags& flags)
             what_is_missing(flags.renderer.settings.effects, renderer.description()->effects))
         throw UsageError(
             "--set effects=" + to_text(flags.renderer.settings.effects) + ": " + *missing);
+    if (frontier)
+        stream.frontier =
+            std::make_shared<const FrontierReport>(for_this(*frontier, *renderer.description()));
     RendererService service(renderer, std::move(document));
     Listener listener(service, stream);
     tell(*renderer.description(), flags);

@@ -124,7 +124,7 @@ export function reachOfTime({ source, points }, ms) {
 }
 
 /**
- * What a wish for the error `target` takes: {reached, words}. `frame` as for rest(), with `most`, samples after which refining ends,
+ * What a wish for the error `target` takes: {reached, words}. `frame` as for rest(), with `most`, samples after which refining ends, `limit`, the most that can be set,
  * whether the picture is `still`, and its `error`.
  */
 export function reachOfError({ source, points }, target, frame) {
@@ -138,8 +138,9 @@ export function reachOfError({ source, points }, target, frame) {
     const { seconds, samples } = rest(target, frame);
     if (!Number.isFinite(seconds))
         return { reached: !best, words: `${moving} How long a resting camera takes is not known yet.` };
-    const patience = samples <= frame.most ? ""
-        : ` That is ${samples.toLocaleString("en")} samples a pixel, but refining ends at ${frame.most.toLocaleString("en")}: choose “unlimited”.`;
+    const { most, limit = Infinity } = frame;
+    const end = samples > limit ? `never goes beyond ${limit.toLocaleString("en")}` : `ends at ${most.toLocaleString("en")}: choose “unlimited”`;
+    const patience = samples <= most ? "" : ` That is ${samples.toLocaleString("en")} samples a pixel, but refining ${end}.`;
     return { reached: !best, words: `${moving} Reachable after ${duration(seconds)} still.${patience}` };
 }
 

@@ -209,7 +209,7 @@ export class Goal {
         number.max = this.#described.get(kind.key).upper;
         range.max = last;
         range.value = nearestStop(this.#stops, value);
-        const reach = this.#kind === "time" ? reachOfTime(this.#frontier, value) : reachOfError(this.#frontier, value, { ...this.#frame, ...this.#rested });
+        const reach = this.#kind === "time" ? reachOfTime(this.#frontier, value) : reachOfError(this.#frontier, value, { ...this.#frame, ...this.#rested, limit: this.#described.get("still_samples")?.upper });
         const shown = this.#kind === "time" ? shortNumber : errorNumber;
         range.setAttribute("aria-valuetext", `${shown(value)} ${kind.unit}. ${reach.words}`);
         range.style.setProperty("--at", range.value / last);

@@ -18,8 +18,8 @@
 // nothing changes, or its mean would begin anew.
 #pragma once
 
-#include "protocol/server_messages.h"
-#include "server/stream/rung_prices.h"
+#include "server/stream/frontier_news.h"
+#include "server/stream/rung_choice.h"
 
 #include <chrono>
 #include <cstdint>
@@ -35,7 +35,6 @@ public:
     static constexpr int kSettlingFrames = 10;
     static constexpr int kWait = 30;  ///< [frames] before a step up; see also above.
     static constexpr std::chrono::seconds kBetweenSteps{1};
-    static constexpr std::chrono::seconds kBetweenNews{1};
 
     /// `report`: what to choose among; without one that is learnt from frames.
     explicit Controller(std::shared_ptr<const FrontierReport> report = nullptr)
@@ -54,7 +53,7 @@ public:
     /// The frontier, where it has not been said yet or is known better.
     std::optional<protocol::Frontier> news(Time now);
     /// Which point of the frontier last said this choice is, from 1; 0: none.
-    std::uint16_t rung_of(const Choice& choice) const;
+    std::uint16_t rung_of(const Choice& choice) const { return news_.rung_of(choice); }
 
     /// Which rung of the ladder draws moving pictures; nothing: the settings as they are.
     std::optional<std::size_t> current() const;
@@ -66,25 +65,19 @@ private:
     bool steers() const { return budget() > 0 || target() > 0; }
     double budget() const { return static_cast<double>(wishes_.budget_ms); }
     double target() const { return static_cast<double>(wishes_.target_error); }
-    std::size_t last_rung() const { return ladder().size() - 1; }
+    RungChoice choice() const { return {prices_, wishes_}; }
 
     void begin_anew();
-    std::size_t best_rung() const;
-    std::size_t dearest_within_budget(std::size_t end) const;
-    bool reaches(const Rung& rung, double error) const;
-    std::size_t cheapest_within(double error) const;
-    std::size_t own_rung() const;
-    std::size_t first_rung() const;
 
     void rebuild(Time now);
     void decide(double ms, Time now);
     bool breaks_budget(double ms);
     void step_down(Time now);
-    std::size_t wished_rung() const;
     void step_to(std::size_t rung, Time now);
     void begin_counting(std::optional<Time> stepped);
 
     RungPrices prices_;
+    FrontierNews news_;
     RenderSettings wishes_;
     Extent extent_;
 
@@ -103,8 +96,6 @@ private:
     int wish_frames_ = 0;  ///< for so many frames.
 
     std::optional<int> resting_samples_;  ///< Of the picture that rests now.
-    std::vector<Rung> said_;
-    std::optional<Time> said_at_;
     std::optional<Time> rebuilt_at_;  ///< The ladder, since the wishes last changed.
 };
 

@@ -14,8 +14,14 @@ using nlohmann::json;
 
 /// What is read of a report, which holds more than this.
 constexpr std::string_view kReportSchema = R"json({
-"description": "an object with size and frontier, as farlight accuracy writes it",
-"type": "object", "required": ["size", "frontier"], "properties": {
+"description": "an object with scene, size and frontier, as farlight accuracy writes it",
+"type": "object", "required": ["scene", "size", "frontier"], "properties": {
+  "scene": {"description": "an object with name, triangles and lights",
+    "type": "object", "required": ["name", "triangles", "lights"], "properties": {
+      "name": {"description": "text", "type": "string"},
+      "triangles": {"description": "a whole number, 0 or more", "type": "integer", "minimum": 0},
+      "lights": {"description": "a whole number, 0 or more", "type": "integer", "minimum": 0}}},
+  "gl_renderer": {"description": "text", "type": "string"},
   "size": {"description": "[width, height] in pixels, 1 to 65536",
     "type": "array", "minItems": 2, "maxItems": 2,
     "items": {"description": "an integer from 1 to 65536",
@@ -73,6 +79,12 @@ FrontierReport::Point point_of(const json& point)
     return read;
 }
 
+std::string to_text(const SceneIdentity& scene)
+{
+    return in_quotes(scene.name) + " of " + std::to_string(scene.triangles) + " triangles and "
+        + std::to_string(scene.lights) + " lights";
+}
+
 }  // namespace
 
 FrontierReport read_frontier_report(const std::filesystem::path& file)
@@ -84,7 +96,12 @@ FrontierReport parse_frontier_report(std::string_view text, const std::string& n
 {
     const json document = parse_json(text, name);
     check_schema(document, kReportSchema, name);
-    FrontierReport report{{document.at("size").at(0), document.at("size").at(1)}, {}};
+    FrontierReport report;
+    report.file = name;
+    const json& scene = document.at("scene");
+    report.scene = {scene.at("name"), scene.at("triangles"), scene.at("lights")};
+    report.device = document.value("gl_renderer", "");
+    report.size = {document.at("size").at(0), document.at("size").at(1)};
     const json& points = document.at("frontier").at("points");
     const ScenePlace place = ScenePlace{name, {}} / "frontier" / "points";
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -94,6 +111,26 @@ FrontierReport parse_frontier_report(std::string_view text, const std::string& n
         report.points.push_back(point_of(points[i]));
     }
     return report;
+}
+
+FrontierReport report_for(
+    FrontierReport report, const SceneIdentity& scene, const std::string& device)
+{
+    if (report.scene != scene)
+        refuse(ScenePlace{report.file, {}} / "scene", to_text(report.scene),
+            to_text(scene) + ", which is shown here");
+    report.of_this_device = report.device.empty() || report.device == device;
+    return report;
+}
+
+std::optional<std::string> otherwise_measured(const FrontierReport& report, Extent extent)
+{
+    if (report.size == extent && report.of_this_device)
+        return std::nullopt;
+    const std::string size =
+        std::to_string(report.size.width) + "x" + std::to_string(report.size.height);
+    return "measured at " + size + (report.of_this_device ? "" : " on " + report.device)
+        + "; its times are corrected by frames drawn here, its errors are not";
 }
 
 std::vector<Rung> rungs_of(const FrontierReport& report, const RenderSettings& wishes)

@@ -43,6 +43,8 @@ public:
     /// Whether times are known at all.
     bool known() const { return costs_.knows(); }
     protocol::FrontierSource source() const { return source_; }
+    /// What it was made with; may be nothing.
+    const FrontierReport* report() const { return report_.get(); }
     /// A report is there, but none of its points fits the wishes.
     bool report_unused() const;
     /// From cheap to dear and from large to small error as of the last rebuild(); what rungs cost

@@ -118,6 +118,7 @@ test("an accuracy that no moving frame has says how long the camera must rest", 
     assert.deepEqual(still, { reached: false, words: "Not while moving: the finest known frame has 0.002 (from a report). Reachable after 8.0 s still." });
     const patience = reachOfError(REPORT, 0.0001, FRAME); // 2000 frames: 4000 samples, 80 s
     assert.match(patience.words, /after 80 s still\. That is 4,000 samples a pixel, but refining ends at 1,000: choose “unlimited”/);
+    assert.match(reachOfError(REPORT, 0.0001, { ...FRAME, limit: 3999 }).words, /That is 4,000 samples a pixel, but refining never goes beyond 3,999\./);
     assert.match(reachOfError(REPORT, 0.001, { ...FRAME, raw: NaN }).words, /not known yet/);
     const there = { ...FRAME, still: true, error: 0.0009 };
     assert.match(reachOfError(REPORT, 0.001, there).words, /Not while moving.*The picture at rest has 9e-4 now\./);

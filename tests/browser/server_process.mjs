@@ -31,7 +31,10 @@ export class ServerProcess {
             server.child.stdout.on("data", hear);
             server.child.stderr.on("data", hear);
             server.child.once("error", reject);
-            server.gone.then(({ code, signal }) => reject(new Error(`the server ended with ${code ?? signal}:\n${server.log}`)));
+            server.gone.then(({ code, signal }) => {
+                clearTimeout(late);
+                reject(new Error(`the server ended with ${code ?? signal}:\n${server.log}`));
+            });
         });
         server.port = Number(new URL(server.url).port);
         return server;

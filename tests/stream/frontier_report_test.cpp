@@ -14,7 +14,8 @@ using nlohmann::json;
 json sound_report()
 {
     return json::parse(R"({
-      "scene": "box", "device": {"name": "software"}, "size": [640, 360], "more": [1, 2],
+      "scene": {"name": "Box", "file": "box.json", "triangles": 38, "lights": 1},
+      "device": "software", "gl_renderer": "llvmpipe", "size": [640, 360], "more": [1, 2],
       "frontier": {"points": [
         {"label": "quarter", "settings": {"resolution_scale": 0.5, "samples_per_pixel": 1},
          "ms": 60, "ms_lower": 59, "relmse": 0.02, "relmse_lower": 0.01, "relmse_upper": 0.03},
@@ -68,11 +69,16 @@ json remove(const char* path)
 
 INSTANTIATE_TEST_SUITE_P(Flaws, FlawedReport,
     testing::Values(Flaw{"NoFrontier", remove("/frontier"),
-                        "r.json: found no key \"frontier\", expected an object with size and "
-                        "frontier, as farlight accuracy writes it"},
+                        "r.json: found no key \"frontier\", expected an object with scene, "
+                        "size and frontier, as farlight accuracy writes it"},
         Flaw{"NoSize", remove("/size"),
-            "r.json: found no key \"size\", expected an object with size and frontier, as farlight "
-            "accuracy writes it"},
+            "r.json: found no key \"size\", expected an object with scene, size and frontier, as "
+            "farlight accuracy writes it"},
+        Flaw{"NoScene", remove("/scene"),
+            "r.json: found no key \"scene\", expected an object with scene, size and frontier, as "
+            "farlight accuracy writes it"},
+        Flaw{"SceneAsText", put("/scene", "box"),
+            "r.json: /scene: found \"box\", expected an object with name, triangles and lights"},
         Flaw{"SizeAsText", put("/size", "640x360"),
             "r.json: /size: found \"640x360\", expected [width, height] in pixels, 1 to 65536"},
         Flaw{"SizeOfNothing", put("/size/0", 0),
@@ -109,6 +115,36 @@ TEST(FrontierReport, IsRefusedWhereItIsNoJsonOrNoFile)
 {
     EXPECT_THROW(parse_frontier_report("{", "r.json"), SceneError);
     EXPECT_THROW(read_frontier_report("/no/such/report.json"), SceneError);
+}
+
+TEST(FrontierReport, IsRefusedWhereItIsOfAnotherScene)
+{
+    const FrontierReport report = parse_frontier_report(sound_report().dump(), "r.json");
+    EXPECT_NO_THROW(report_for(report, {"Box", 38, 1}, "llvmpipe"));
+    for (const SceneIdentity& shown : {SceneIdentity{"Box", 39, 1}, SceneIdentity{"Box", 38, 2}})
+        EXPECT_THROW(report_for(report, shown, "llvmpipe"), SceneError);
+    try {
+        report_for(report, {"Hall", 262267, 24}, "llvmpipe");
+        FAIL() << "it was taken";
+    } catch (const SceneError& refused) {
+        EXPECT_STREQ(refused.what(),
+            "r.json: /scene: found \"Box\" of 38 triangles and 1 lights, expected \"Hall\" of "
+            "262267 "
+            "triangles and 24 lights, which is shown here");
+    }
+}
+
+TEST(FrontierReport, SaysWhereItsSizeOrDeviceIsAnother)
+{
+    const FrontierReport read = parse_frontier_report(sound_report().dump(), "r.json");
+    const FrontierReport here = report_for(read, read.scene, "llvmpipe");
+    const FrontierReport elsewhere = report_for(read, read.scene, "GeForce");
+    EXPECT_EQ(otherwise_measured(here, {640, 360}), std::nullopt);
+    EXPECT_EQ(otherwise_measured(here, {320, 180}),
+        "measured at 640x360; its times are corrected by frames drawn here, its errors are not");
+    EXPECT_EQ(otherwise_measured(elsewhere, {640, 360}),
+        "measured at 640x360 on llvmpipe; its times are corrected by frames drawn here, its errors "
+        "are not");
 }
 
 TEST(FrontierReport, GivesTheRungsThatDifferInNothingElse)
@@ -152,6 +188,7 @@ TEST(ReportedFrontier, IsToldBeforeAnyFrameAsItStands)
     EXPECT_NEAR(told->points[2].ms, 330, 1e-9);
     EXPECT_EQ(told->points[2].error, 0.004);
     EXPECT_FALSE(told->points[2].upper);
+    EXPECT_FALSE(told->reason);
 }
 
 /// Four times the pixels take four times as long, but for what does not depend on pixels.
@@ -166,6 +203,9 @@ TEST(ReportedFrontier, IsScaledToTheSizeOfThePicture)
         EXPECT_LE(rung.ms, 4 * reported * (1 + 1e-9));
         EXPECT_GE(rung.ms, 3 * reported);
     }
+    const auto told = controller.news(Controller::Time());
+    ASSERT_TRUE(told && told->reason);
+    EXPECT_NE(told->reason->find("measured at 640x360"), std::string::npos);
 }
 
 /// A frame of four samples would be 1.07e9 path segments, and a session that asks for it is closed.
