@@ -22,7 +22,7 @@ Effort effort_of(GridSize grid)
     switch (grid) {
     case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 2, 4};
     case GridSize::kClassic:
-    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 4, 8};
+    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 4, 6};
     case GridSize::kNormal: break;
     }
     return {32, 3, 16, 4, 64, 32, 12, 8};

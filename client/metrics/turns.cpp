@@ -48,6 +48,7 @@ Estimate about(double value, const std::vector<double>& logarithms)
 Estimate median_of_turns(const std::vector<TurnValues>& turns)
 {
     std::vector<double> logarithms;
+    logarithms.reserve(turns.size());
     for (const TurnValues& turn : turns)
         logarithms.push_back(std::log(median(turn)));
     return about(median(joined(turns)), logarithms);
@@ -57,6 +58,7 @@ Estimate ratio_of_turns(const std::vector<TurnValues>& a, const std::vector<Turn
 {
     assert(a.size() == b.size());
     std::vector<double> logarithms;
+    logarithms.reserve(a.size());
     for (std::size_t i = 0; i < a.size(); ++i)
         logarithms.push_back(std::log(median(a[i]) / median(b[i])));
     return about(std::exp(mean_of_logarithms(logarithms)), logarithms);
