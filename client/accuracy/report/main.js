@@ -61,7 +61,7 @@ function responseSection(report) {
     const host = section("response", "Unrest at rest, and a change of light", responseTable(response),
         paragraph(`Flicker = mean over pixels of std\u209c(L) / (mean\u209c(L) + 0.01) over ${response.still_frames} frames after ${response.history}, nothing moving, ${response.seeds} seeds.`));
     if (!response.step) {
-        host.append(paragraph("No step response: the scene's file names no light that could be dimmed."));
+        host.append(paragraph("No step response: the scene has no file in Farlight's own format (or it was a running server's), or it names no light that could be dimmed."));
         return;
     }
     host.append(paragraph(`From one frame to the next ${response.step}; the error of the frames that follow is against a reference of the new light. Lag: frames until it is below twice what it settles at.`));
@@ -72,7 +72,7 @@ function motionSection({ motion }) {
     const host = section("motion", "Lamps that move");
     if (!motion?.points) {
         host.append(paragraph(motion?.refused ? `Not measured: the server refuses to move the lamps (${motion.refused}).`
-            : "Not measured: the scene's file names no lamp that could be moved."));
+            : "Not measured: the scene has no file in Farlight's own format (or it was a running server's), or it names no lamp that could be moved."));
         return;
     }
     host.append(paragraph(`After ${motion.history} frames at rest ${motion.what} within ${motion.frames} frames, and then stops. Each frame's error is against a reference of its own moment. `
