@@ -14,6 +14,9 @@ namespace {
 constexpr int kResamples = 2000;  // the interval's ends then vary by about 1 % of its width
 constexpr int kStudentResamples = 1000;  // each with a jackknife inside
 constexpr double kOutside = 0.025;  // on either side
+constexpr std::size_t kTooFewToDraw = 3;  // they make ten different draws
+constexpr double kStudentOfThree = 4.3027;  // Student's t, two degrees of freedom, at 0.975
+constexpr double kRounding = 1e-12;  // of sums of up to thousands of doubles, relative
 
 double sorted_at(const std::vector<double>& sorted, double share)
 {
@@ -100,6 +103,8 @@ Estimate estimate_by_runs(std::size_t runs, const StatisticOfRuns& statistic)
     std::iota(all.begin(), all.end(), std::size_t{0});
     const double value = statistic(all);
     const double error = jackknife_error(all, statistic);
+    if (runs == kTooFewToDraw)
+        return {value, {value - kStudentOfThree * error, value + kStudentOfThree * error}};
     std::mt19937 random(1);
     std::uniform_int_distribution<std::size_t> pick(0, runs - 1);
     std::vector<double> deviations;
@@ -107,9 +112,10 @@ Estimate estimate_by_runs(std::size_t runs, const StatisticOfRuns& statistic)
     for (int i = 0; i < kStudentResamples; ++i) {
         std::generate(some.begin(), some.end(), [&] { return pick(random); });
         const double some_error = jackknife_error(some, statistic);
-        const double deviation = (statistic(some) - value) / some_error;
-        if (std::isfinite(deviation))  // not so where too few different runs were drawn
-            deviations.push_back(deviation);
+        const double some_value = statistic(some);
+        // Of one run drawn again and again there is no error but what rounding leaves.
+        if (some_error > kRounding * std::abs(some_value) && std::isfinite(some_value))
+            deviations.push_back((some_value - value) / some_error);
     }
     if (deviations.empty())
         return {value, {value, value}};  // all runs are equal

@@ -36,7 +36,8 @@ Estimate estimate_mean(const std::vector<double>& values);
 using StatisticOfRuns = std::function<double(std::span<const std::size_t> runs)>;
 /// Studentised bootstrap over few (at least 3) independent runs, with the jackknife's standard
 /// error inside and out: the percentile interval of ten runs holds the truth in 90 of 100 cases
-/// only. Seeded. Source: Efron, Tibshirani 1993, "An Introduction to the Bootstrap",
+/// only. Three runs, of which too few different draws can be made, have Student's t instead.
+/// Seeded. Source: Efron, Tibshirani 1993, "An Introduction to the Bootstrap",
 /// sections 11.5, 12.5.
 Estimate estimate_by_runs(std::size_t runs, const StatisticOfRuns& statistic);
 

@@ -287,7 +287,7 @@ TEST(Reference, OnlyItsOwnFilesAreRemoved)
 
 TEST(MeasuredError, OfABlackSceneIsLimitedByTheReference)
 {
-    const std::vector<float> black(3 * 4 * 4, 0.0F);
+    const std::vector<float> black(48, 0.0F);
     const ReferencePicture reference{
         .size = {4, 4}, .mean = black, .variance = black, .samples = 32};
     const json error = measured_error({black, black, black}, reference, 1);

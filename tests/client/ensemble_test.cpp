@@ -5,6 +5,7 @@
 // fixed, so the tests are deterministic.
 #include "client/metrics/ensemble.h"
 
+#include <algorithm>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <random>
@@ -94,6 +95,29 @@ TEST(EstimateMean, FewAndEqualValues)
     const Estimate equal = estimate_mean({5, 5, 5, 5});
     EXPECT_EQ(equal.interval.lower, 5);
     EXPECT_EQ(equal.interval.upper, 5);
+    // The same run is often drawn four times, and the mean of 0.1 and others is not quite the same
+    // of two and of three: no error to divide by.
+    const Estimate few = estimate_mean({0.1, 0.2, 0.4, 0.7});
+    EXPECT_GT(few.interval.lower, -100);
+    EXPECT_LT(few.interval.upper, 100);
+}
+
+/// Of 1000 intervals of three runs about 950 hold the truth, of four and five about 940, standard
+/// deviation 7.5: below 910 by chance in less than one of 10^4 cases.
+TEST(EstimateMean, FewRunsHoldTheTruth)
+{
+    std::mt19937 random(11);
+    std::normal_distribution<double> noise(1, 0.2);
+    for (const int runs : {3, 4, 5}) {
+        int held = 0;
+        for (int i = 0; i < 1000; ++i) {
+            std::vector<double> values(static_cast<std::size_t>(runs));
+            std::generate(values.begin(), values.end(), [&] { return noise(random); });
+            const Estimate mean = estimate_mean(values);
+            held += mean.interval.lower <= 1 && 1 <= mean.interval.upper ? 1 : 0;
+        }
+        EXPECT_GE(held, 910) << runs;
+    }
 }
 
 /// A reference that is itself a noisy picture looks like bias, until its variance is known.

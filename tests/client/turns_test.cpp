@@ -49,6 +49,7 @@ TEST(MedianOfTurns, TheIntervalHoldsTheTruthUnderALoadOfWholeTurns)
         int held = 0;
         for (int run = 0; run < 1000; ++run) {
             std::vector<TurnValues> turns;
+            turns.reserve(static_cast<std::size_t>(rounds));
             for (int round = 0; round < rounds; ++round)
                 turns.push_back(machine.turns({3}).front());
             held += holds(median_of_turns(turns), 3) ? 1 : 0;

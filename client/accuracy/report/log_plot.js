@@ -36,7 +36,8 @@ function axis(label, format) {
  */
 function logPlot(host, { title, x, y, markers, lines = [], verticals = [], horizontals = [], stars = [], linearX = false }) {
     const xs = markers.map((marker) => marker.x);
-    const ys = markers.flatMap((marker) => [marker.y, marker.lower, marker.upper]).concat(horizontals.map(({ y: at }) => at));
+    // Few seeds make whiskers long: they take at most a decade beyond their marker.
+    const ys = markers.flatMap(({ y: at, lower, upper }) => [at, lower > 0 ? Math.max(lower, at / 10) : at, Math.min(upper, 10 * at)]).concat(horizontals.map(({ y: at }) => at));
     const place = element("div", { class: "plot", role: "img", "aria-label": title });
     host.append(place);
     const xRange = linearX ? [Math.min(...xs) - 0.5, Math.max(...xs) + 0.5] : logRange(xs.concat(stars.map((star) => star.x)));
