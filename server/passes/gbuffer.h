@@ -19,24 +19,27 @@ struct GBuffer {
     TextureHandle prev_surface;  ///< Last frame's; only with `keep_history`.
     TextureHandle prev_identity;
     TextureHandle prev_fog_way;
-    bool history_valid = false;
+    bool surface_history_valid = false;
+    bool fog_history_valid = false;
 };
 
 /// `keep_history`: a temporal filter will want last frame's surface and identity.
 inline GBuffer gbuffer_textures(FrameGraph& graph, const FrameInputs& inputs, bool keep_history)
 {
     GBuffer gbuffer;
-    gbuffer.history_valid = keep_history;
-    const auto kept = [&](const char* name, GLenum format, TextureHandle& previous) {
+    gbuffer.surface_history_valid = gbuffer.fog_history_valid = keep_history;
+    const auto kept = [&](const char* name, GLenum format, TextureHandle& previous, bool& valid) {
         if (!keep_history)
             return graph.create(name, format);
         const History history = graph.history(name, format);
         previous = history.previous;
-        gbuffer.history_valid = gbuffer.history_valid && history.valid;
+        valid = valid && history.valid;
         return history.current;
     };
-    gbuffer.surface = kept("gbuffer.surface", GL_RGBA32UI, gbuffer.prev_surface);
-    gbuffer.identity = kept("gbuffer.identity", GL_RGBA32UI, gbuffer.prev_identity);
+    gbuffer.surface =
+        kept("gbuffer.surface", GL_RGBA32UI, gbuffer.prev_surface, gbuffer.surface_history_valid);
+    gbuffer.identity = kept(
+        "gbuffer.identity", GL_RGBA32UI, gbuffer.prev_identity, gbuffer.surface_history_valid);
     gbuffer.hit = graph.create("gbuffer.hit", GL_RGBA32UI);
     gbuffer.position = graph.create("gbuffer.position", GL_RGBA32F);
     gbuffer.albedo = graph.create("gbuffer.albedo", GL_RGBA32F);
@@ -45,7 +48,8 @@ inline GBuffer gbuffer_textures(FrameGraph& graph, const FrameInputs& inputs, bo
     if (inputs.has_specular())
         gbuffer.reflectance = graph.create("gbuffer.reflectance", GL_RGBA32F);
     if (inputs.has_fog())
-        gbuffer.fog_way = kept("gbuffer.fog_way", GL_R32F, gbuffer.prev_fog_way);
+        gbuffer.fog_way =
+            kept("gbuffer.fog_way", GL_R32F, gbuffer.prev_fog_way, gbuffer.fog_history_valid);
     return gbuffer;
 }
 

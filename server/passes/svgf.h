@@ -126,7 +126,8 @@ private:
     void add_temporal(const SignalTextures& noisy, const SignalTextures& mixed)
     {
         static constexpr const char* kPrevious[] = {"prev_light", "prev_light_2"};
-        bool valid = moments_.valid && length_.valid && gbuffer_.history_valid;
+        bool valid = moments_.valid && length_.valid
+            && (is(scattered_kind()) ? gbuffer_.fog_history_valid : gbuffer_.surface_history_valid);
         for (const History& past : past_)
             valid = valid && past.valid;
         Pass& pass = add_pass("temporal", "svgf/temporal.comp", noisy, mixed)

@@ -14,6 +14,9 @@ struct Past {
     float key;        // specular: roughness (GGX alpha); scattered: the fog's transmittance
 };
 
+// lit(px): whether light of the kind reaches the pixel at all. Only what is lit and was lit has a history, so
+// that what is drawn does not depend on whether the programs of last frame knew the kind.
+
 #ifdef SIGNAL_SCATTERED
 
 uniform sampler2D in_fog_way;
@@ -43,7 +46,7 @@ bool consistent(Past p, ivec2 q)
     return inside_prev_frame(q) && abs(transmittance(texelFetch(prev_fog_way, q, 0).x) - p.key) <= p.tolerance;
 }
 
-bool lit(ivec2 px) { return true; }
+bool lit(ivec2 px) { return max_component(fog_sigma_t) * texelFetch(in_fog_way, px, 0).x > 0.0; }
 
 #else
 
@@ -62,7 +65,7 @@ Past past_of_surface(ivec2 px)
     const vec4 motion = texelFetch(in_motion, px, 0);
     const float depth = uintBitsToFloat(surface.x);
     Past p;
-    p.exists = identity.w != 0u && motion.w > 0.0;
+    p.exists = motion.w > 0.0;
     p.pixel = vec2(px) + 0.5 + motion.xy;
     p.position = frame.prev_camera.position + (depth + motion.z) * camera_direction(frame.prev_camera, p.pixel);
     p.geometric_normal = unpack_octahedral(identity.z);
@@ -78,7 +81,7 @@ Past past_of_surface(ivec2 px)
 }
 
 // Whether last frame's pixel q shows the same piece of surface. Written as accept-if: a NaN anywhere rejects.
-bool consistent_surface(Past p, ivec2 q)
+bool consistent(Past p, ivec2 q)
 {
     if (!inside_prev_frame(q))
         return false;
@@ -90,8 +93,6 @@ bool consistent_surface(Past p, ivec2 q)
     return identity.w != 0u && identity.xy == p.ids && plane_distance <= p.tolerance
         && dot(unpack_octahedral(surface.w), p.shading_normal) >= reproject_normal;
 }
-
-bool lit(ivec2 px) { return texelFetch(in_identity, px, 0).w != 0u; }
 
 #ifdef SIGNAL_SPECULAR
 
@@ -150,16 +151,16 @@ Past past_of(ivec2 px)
     const vec2 camera_of_surface
         = camera_project(frame.prev_camera, position).xy - camera_project(frame.camera, position).xy;
     p.pixel = vec2(px) + 0.5 + (before.xy - now.xy) + (still - camera_of_surface);
-    p.exists = p.exists && alpha >= 0.0 && before.z > 0.0;
+    p.exists = p.exists && before.z > 0.0;
     return p;
 }
 
-bool consistent(Past p, ivec2 q) { return consistent_surface(p, q); }
+bool lit(ivec2 px) { return texelFetch(in_reflectance, px, 0).a >= 0.0; }
 
 #else
 
 Past past_of(ivec2 px) { return past_of_surface(px); }
-bool consistent(Past p, ivec2 q) { return consistent_surface(p, q); }
+bool lit(ivec2 px) { return texelFetch(in_identity, px, 0).w != 0u; }
 
 #endif
 #endif

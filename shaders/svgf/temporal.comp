@@ -4,7 +4,7 @@
 //   in   in_light, in_light_2      rgba32f  this frame's demodulated radiance
 //        prev_light, prev_light_2  rgba32f  filtered radiance rgb, noise a (last frame's feedback)
 //        prev_moments              rgba32f  luminance mean and variance of the first (xy) and second (zw) signal
-//        prev_length               r32f     history length [frames]
+//        prev_length               r32f     history length [frames], 0 where there was no light of the kind
 //        and the G-buffer textures, this frame's and last frame's, of svgf/past.glsl
 //   out  out_light, out_light_2    rgba32f  blended radiance rgb, noise a (svgf/noise.glsl)
 //        out_moments, out_length            feed back next frame as prev_moments, prev_length
@@ -58,7 +58,8 @@ struct HistorySum {
 
 void add_tap(Past p, ivec2 q, float weight, inout HistorySum sum)
 {
-    if (weight >= LEAST_TAP_WEIGHT && consistent(p, q)) {
+    const float tap_length = texelFetch(prev_length, q, 0).x;
+    if (weight >= LEAST_TAP_WEIGHT && tap_length >= 1.0 && consistent(p, q)) {
         const vec4 first = texelFetch(prev_light, q, 0);
         sum.first += weight * first.rgb;
         sum.half_difference.x += weight * half_difference_in(first.a);
@@ -68,7 +69,7 @@ void add_tap(Past p, ivec2 q, float weight, inout HistorySum sum)
         sum.half_difference.y += weight * half_difference_in(second.a);
 #endif
         sum.moments += weight * texelFetch(prev_moments, q, 0);
-        sum.least_length = min(sum.least_length, texelFetch(prev_length, q, 0).x);
+        sum.least_length = min(sum.least_length, tap_length);
         sum.weight += weight;
     }
 }
@@ -115,7 +116,7 @@ void main()
     if (!inside_frame(px))
         return;
     Past p = past_of(px);
-    p.exists = p.exists && history_valid != 0;
+    p.exists = p.exists && lit(px) && history_valid != 0;
     const HistorySum sum = reproject(p);
     const bool found = p.exists && sum.weight > 0.0;
 
