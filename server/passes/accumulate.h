@@ -10,7 +10,6 @@ namespace farlight {
 struct Mean {
     TextureHandle radiance;
     TextureHandle prev_reference;  ///< Mean of older samples, as last frame had it.
-    TextureHandle reference;  ///< The one to be had next frame.
 };
 
 /// What becomes of the older mean that a denoised picture is measured against.
@@ -34,13 +33,13 @@ inline Mean add_accumulate(
                      .write("out_variance", variance.current)
                      .constant("frame_count", mean.valid && variance.valid ? frame_count : 1);
     if (reference == Reference::kAbsent)
-        return {mean.current, {}, {}};
+        return {mean.current, {}};
     const History older = graph.history("accumulate.reference", GL_RGBA32F);
     pass.define({{"WITH_REFERENCE", "1"}})
         .read("prev_reference", older.previous)
         .write("out_reference", older.current)
         .constant("takes_reference", reference == Reference::kTake ? 1 : 0);
-    return {mean.current, older.previous, older.current};
+    return {mean.current, older.previous};
 }
 
 inline TextureHandle add_refine(

@@ -5,16 +5,11 @@
 
 namespace farlight {
 
-/// Scene-linear radiance (rgba32f). `name` tells the raw picture from the denoised one. Without
-/// signals (no light scatters) only emission is seen.
-inline TextureHandle add_composite(FrameGraph& graph, const std::string& name,
-    const FrameInputs& inputs, const GBuffer& gbuffer, const Signals& light)
+/// What composite/compose.glsl reads to make a picture of `light`.
+inline void read_signals(
+    Pass& pass, const FrameInputs& inputs, const GBuffer& gbuffer, const Signals& light)
 {
-    const TextureHandle radiance = graph.create(name, GL_RGBA32F);
     const bool lit = light.direct.index >= 0;
-    Pass& pass = graph.add_pass(name, "composite/composite.comp")
-                     .read("in_emission", gbuffer.emission)
-                     .write("out_radiance", radiance);
     if (lit)
         pass.define({{"LIT", "1"}})
             .read("in_direct", light.direct)
@@ -30,6 +25,18 @@ inline TextureHandle add_composite(FrameGraph& graph, const std::string& name,
             .constant("fog_sigma_t", inputs.fog.sigma_t);
     if (lit && inputs.has_fog())
         pass.read("in_scattered", light.scattered);
+}
+
+/// Scene-linear radiance (rgba32f). `name` tells the raw picture from the denoised one. Without
+/// signals (no light scatters) only emission is seen.
+inline TextureHandle add_composite(FrameGraph& graph, const std::string& name,
+    const FrameInputs& inputs, const GBuffer& gbuffer, const Signals& light)
+{
+    const TextureHandle radiance = graph.create(name, GL_RGBA32F);
+    Pass& pass = graph.add_pass(name, "composite/composite.comp")
+                     .read("in_emission", gbuffer.emission)
+                     .write("out_radiance", radiance);
+    read_signals(pass, inputs, gbuffer, light);
     return radiance;
 }
 

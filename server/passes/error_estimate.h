@@ -3,7 +3,7 @@
 #pragma once
 
 #include "server/passes/accumulate.h"
-#include "server/passes/path_trace.h"
+#include "server/passes/composite.h"
 #include "server/render/error_estimate.h"
 
 namespace farlight {
@@ -20,28 +20,15 @@ inline int tile_offset(TileSums sums, Extent extent)
 inline void read_filtered(
     Pass& pass, const FrameInputs& inputs, const GBuffer& gbuffer, const Signals& filtered)
 {
-    pass.define({{"LIT", "1"}, {"ERROR_ESTIMATE", "1"}})
-        .read("in_direct", filtered.direct)
-        .read("in_indirect", filtered.indirect)
-        .read("in_albedo", gbuffer.albedo);
-    if (inputs.has_specular())
-        pass.define({{"FX_SPECULAR_SIGNAL", "1"}})
-            .read("in_specular", filtered.specular)
-            .read("in_reflectance", gbuffer.reflectance);
-    if (inputs.has_fog())
-        pass.define({{"FX_FOG", "1"}})
-            .read("in_scattered", filtered.scattered)
-            .read("in_fog_way", gbuffer.fog_way)
-            .constant("fog_sigma_t", inputs.fog.sigma_t);
+    read_signals(pass.define({{"ERROR_ESTIMATE", "1"}}), inputs, gbuffer, filtered);
 }
 
-/// `picture`: composite of `filtered`. `frame_index`: frames since the cut, as in the frame's
-/// constants.
+/// `picture`: composite of `filtered`. `second_of_pair`: the frame before was the first.
 inline void add_predict(FrameGraph& graph, const FrameInputs& inputs, const GBuffer& gbuffer,
     const Signals& noisy, const Signals& filtered,
-    std::pair<TextureHandle, std::uint32_t> picture_and_index)
+    std::pair<TextureHandle, bool> picture_and_second_of_pair)
 {
-    const auto [picture, frame_index] = picture_and_index;
+    const auto [picture, second_of_pair] = picture_and_second_of_pair;
     const History difference = graph.history("error_estimate.difference", GL_RGBA32F);
     Pass& pass = graph.add_pass("predict error", "error_estimate/predict.comp")
                      .read("in_picture", picture)
@@ -50,7 +37,7 @@ inline void add_predict(FrameGraph& graph, const FrameInputs& inputs, const GBuf
                      .read("in_motion", gbuffer.motion)
                      .read("prev_difference", difference.previous)
                      .write("out_difference", difference.current)
-                     .constant("second_of_pair", frame_index % 2 == 1 && difference.valid ? 1 : 0)
+                     .constant("second_of_pair", second_of_pair ? 1 : 0)
                      .constant("tile_offset", tile_offset(TileSums::kPredicted, graph.extent()))
                      .dispatch(tiles_of(graph.extent()));
     read_filtered(pass, inputs, gbuffer, filtered);
@@ -84,12 +71,19 @@ inline TextureHandle add_distance(FrameGraph& graph, TextureHandle picture, Text
 }
 
 /// `picture`: the denoised one, if there is one and a reference to measure it against.
-inline void add_measure(FrameGraph& graph, const Mean& mean, TextureHandle picture)
+inline void add_measure(FrameGraph& graph, const FrameInputs& inputs, const GBuffer& gbuffer,
+    const Mean& mean, TextureHandle picture)
 {
     Pass& pass = graph.add_pass("measure error", "error_estimate/measure.comp")
+                     .define({{"LIT", "1"}})
+                     .read("in_albedo", gbuffer.albedo)
                      .read("in_mean", mean.radiance)
                      .constant("tile_offset", tile_offset(TileSums::kMeasured, graph.extent()))
                      .dispatch(tiles_of(graph.extent()));
+    if (inputs.has_fog())
+        pass.define({{"FX_FOG", "1"}})
+            .read("in_fog_way", gbuffer.fog_way)
+            .constant("fog_sigma_t", inputs.fog.sigma_t);
     if (picture.index >= 0)
         pass.define({{"WITH_REFERENCE", "1"}})
             .read("in_picture", picture)

@@ -38,8 +38,8 @@ inline GBuffer gbuffer_textures(FrameGraph& graph, const FrameInputs& inputs, bo
     };
     gbuffer.surface =
         kept("gbuffer.surface", GL_RGBA32UI, gbuffer.prev_surface, gbuffer.surface_history_valid);
-    gbuffer.identity = kept(
-        "gbuffer.identity", GL_RGBA32UI, gbuffer.prev_identity, gbuffer.surface_history_valid);
+    gbuffer.identity =
+        kept("gbuffer.identity", GL_RGBA32UI, gbuffer.prev_identity, gbuffer.surface_history_valid);
     gbuffer.hit = graph.create("gbuffer.hit", GL_RGBA32UI);
     gbuffer.position = graph.create("gbuffer.position", GL_RGBA32F);
     gbuffer.albedo = graph.create("gbuffer.albedo", GL_RGBA32F);

@@ -15,11 +15,12 @@ constexpr std::size_t kFewestForAnInterval = 5;
 constexpr int kPairs = 8;
 constexpr int kMostPairs = 64;
 
+constexpr double kNormal = 1.959964;  ///< Two-sided 95 % quantile of the normal distribution.
+
 /// Two-sided 95 % quantile of Student's t, from 4 degrees of freedom on: the first terms of its
 /// expansion about the normal one. Source: Abramowitz and Stegun 1964, 26.7.5.
 double t_quantile(double degrees_of_freedom)
 {
-    constexpr double kNormal = 1.959964;
     constexpr double kCube = kNormal * kNormal * kNormal;
     return kNormal + (kCube + kNormal) / (4 * degrees_of_freedom)
         + (5 * kCube * kNormal * kNormal + 16 * kCube + 3 * kNormal)
@@ -32,12 +33,11 @@ std::size_t index_of(int x, int y, int across)
         + static_cast<std::size_t>(y) * static_cast<std::size_t>(across);
 }
 
-/// Sums of `component` and what they are over, of blocks of `side` x `side` tiles.
+/// Sums of `component` and what they are over, of blocks of `side` x `side` tiles. Blocks in which
+/// nothing counts are left out.
 std::vector<glm::dvec2> block_sums(
-    std::span<const glm::vec4> sums, Extent extent, std::pair<int, Over> component_over, int side)
+    std::span<const glm::vec4> sums, Extent tiles, int component, int side)
 {
-    const auto [component, over] = component_over;
-    const Extent tiles = tiles_of(extent);
     const int across = (tiles.width + side - 1) / side;
     const int down = (tiles.height + side - 1) / side;
     std::vector<glm::dvec2> blocks(
@@ -45,11 +45,9 @@ std::vector<glm::dvec2> block_sums(
     for (int y = 0; y < tiles.height; ++y)
         for (int x = 0; x < tiles.width; ++x) {
             const glm::vec4& tile = sums[index_of(x, y, tiles.width)];
-            const int pixels = std::min(kTileSize, extent.width - x * kTileSize)
-                * std::min(kTileSize, extent.height - y * kTileSize);
-            blocks[index_of(x / side, y / side, across)] += glm::dvec2(
-                tile[component], over == Over::kPairs ? tile.w : static_cast<float>(pixels));
+            blocks[index_of(x / side, y / side, across)] += glm::dvec2(tile[component], tile.w);
         }
+    std::erase_if(blocks, [](const glm::dvec2& block) { return !(block.y > 0); });
     return blocks;
 }
 
@@ -69,14 +67,14 @@ Extent tiles_of(Extent extent)
     return {tiles(extent.width), tiles(extent.height)};
 }
 
-ErrorEstimate mean_of_tiles(
-    std::span<const glm::vec4> sums, Extent extent, int component, Over over)
+ErrorEstimate mean_of_tiles(std::span<const glm::vec4> sums, Extent extent, int component)
 {
+    const Extent tiles = tiles_of(extent);
     int side = kBlockTiles;
-    std::vector<glm::dvec2> blocks = block_sums(sums, extent, {component, over}, side);
+    std::vector<glm::dvec2> blocks = block_sums(sums, tiles, component, side);
     while (blocks.size() < kFewestBlocks && side > 1) {
         side /= 2;
-        blocks = block_sums(sums, extent, {component, over}, side);
+        blocks = block_sums(sums, tiles, component, side);
     }
     glm::dvec2 total(0);
     for (const glm::dvec2& block : blocks)
@@ -100,32 +98,38 @@ ErrorEstimate mean_of_tiles(
     return estimate;
 }
 
-/// The denoised picture's error. A single pair of frames knows little of it, so it is averaged over
-/// some pairs, in which it does not change much; over more where that is not enough.
-ErrorEstimate ErrorRecord::predict(const Frame& frame, FrameErrors& errors)
+/// What a frame says of the denoised picture's error: the first of a pair its noise, the second all
+/// of it. A single pair of frames knows little, so it is averaged over some pairs, in which it does
+/// not change much; over more where that is not enough.
+void ErrorRecord::predict(const Frame& frame)
 {
-    errors.noise = mean_of_tiles(frame.predicted, frame.extent, 0).value;
-    errors.raw = mean_of_tiles(frame.predicted, frame.extent, 1).value;
-    const ErrorEstimate half_picture =
-        mean_of_tiles(frame.predicted, frame.extent, 2, Over::kPairs);
-    if (half_picture.known() && std::isfinite(half_picture.deviation)) {
-        // A half picture has half the samples, so twice the noise of the whole one.
-        const double whole = half_picture.value - errors.noise;
-        const double square = half_picture.deviation * half_picture.deviation;
-        const bool precise = 4 * predicted_square_ < predicted_ * predicted_;
-        ++predicted_pairs_;
-        const double weight =
-            std::max(1.0 / predicted_pairs_, 1.0 / (precise ? kPairs : kMostPairs));
-        predicted_ = weight < 1 ? predicted_ + weight * (whole - predicted_) : whole;
-        predicted_square_ = weight < 1
-            ? (1 - weight) * (1 - weight) * predicted_square_ + weight * weight * square
-            : square;
+    const ErrorEstimate product = mean_of_tiles(frame.predicted, frame.extent, 2);
+    if (!frame.second_of_pair) {
+        noise_ = mean_of_tiles(frame.predicted, frame.extent, 0).value;
+        raw_ = mean_of_tiles(frame.predicted, frame.extent, 1).value;
+        return;
     }
+    if (!product.known() || !std::isfinite(product.deviation))
+        return;
+    // A half picture has half the samples, so twice the noise of the whole one.
+    const double whole = product.value - noise_;
+    const double square = product.deviation * product.deviation;
+    const bool precise = 4 * predicted_square_ < predicted_ * predicted_;
+    ++predicted_pairs_;
+    const double weight = std::max(1.0 / predicted_pairs_, 1.0 / (precise ? kPairs : kMostPairs));
+    predicted_ = weight < 1 ? predicted_ + weight * (whole - predicted_) : whole;
+    predicted_square_ = weight < 1
+        ? (1 - weight) * (1 - weight) * predicted_square_ + weight * weight * square
+        : square;
+}
+
+ErrorEstimate ErrorRecord::prediction() const
+{
     if (predicted_pairs_ == 0)
         return {};
-    const double reach = 1.96 * std::sqrt(predicted_square_);
-    return {std::max(predicted_, errors.noise), std::max(predicted_ - reach, 0.0),
-        std::max(predicted_ + reach, errors.noise), std::sqrt(predicted_square_)};
+    const double reach = kNormal * std::sqrt(predicted_square_);
+    return {std::max(predicted_, noise_), std::max(predicted_ - reach, 0.0),
+        std::max(predicted_ + reach, noise_), std::sqrt(predicted_square_)};
 }
 
 void ErrorRecord::measure(const Frame& frame)
@@ -146,17 +150,23 @@ void ErrorRecord::measure(const Frame& frame)
 FrameErrors ErrorRecord::add(const Frame& frame)
 {
     FrameErrors errors;
-    if (frame.starts_anew)
+    if (frame.starts_anew) {
         predicted_pairs_ = 0;
+        noise_ = raw_ = std::numeric_limits<double>::quiet_NaN();
+    }
     if (frame.starts_anew || frame.mean_frames <= 1) {
         measured_ = {};
         reference_samples_ = 0;
     }
     if (frame.mean_frames <= 1)
         noise_of_one_frame_ = {};
-    ErrorEstimate denoised;
     if (!frame.predicted.empty())
-        denoised = predict(frame, errors);
+        predict(frame);
+    const ErrorEstimate denoised = frame.denoised ? prediction() : ErrorEstimate{};
+    if (frame.denoised) {
+        errors.noise = noise_;
+        errors.raw = raw_;
+    }
     if (!frame.measured.empty())
         measure(frame);
     // Until the mean has shown how far its frames scatter, what tells one from the picture stands

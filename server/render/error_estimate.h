@@ -30,16 +30,12 @@ struct ErrorEstimate {
 /// Tiles across and down.
 Extent tiles_of(Extent extent);
 
-/// What a mean is taken over.
-enum class Over : std::uint8_t { kPixels, kPairs };
-
-/// Mean of what the tiles of a picture hold in `component`, over their pixels or, what they hold in
-/// w, the pairs of pixels that were found; NaN of none. The interval takes blocks of tiles for
+/// Mean of what the tiles of a picture hold in `component`, over what they hold in w, the pixels or
+/// pairs of pixels that count; NaN of none. The interval takes blocks of tiles for
 /// independent: 64 pixels, the reach of five a-trous iterations, or less where the picture has
 /// fewer than 9 such blocks. It does not go below 0;
 /// of fewer than 5 blocks there is none.
-ErrorEstimate mean_of_tiles(
-    std::span<const glm::vec4> sums, Extent extent, int component, Over over = Over::kPixels);
+ErrorEstimate mean_of_tiles(std::span<const glm::vec4> sums, Extent extent, int component);
 
 /// What is known of a frame's errors (relMSE).
 struct FrameErrors {
@@ -60,7 +56,10 @@ public:
         /// What was known of the denoised picture's error is of another picture: after a cut, or
         /// where samples, size or filter are others than before.
         bool starts_anew = false;
-        std::span<const glm::vec4> predicted;  ///< Of error_estimate/predict.comp; may be empty.
+        /// Of error_estimate/predict.comp; may be empty, also between frames that have them.
+        std::span<const glm::vec4> predicted;
+        bool second_of_pair = false;  ///< They are of the second frame of a pair.
+        bool denoised = false;  ///< The picture is, and its error is estimated.
         std::span<const glm::vec4> measured;  ///< Of error_estimate/measure.comp; may be empty.
         Extent extent;  ///< Of the picture [px].
         int samples_per_pixel = 1;
@@ -71,9 +70,12 @@ public:
     FrameErrors add(const Frame& frame);
 
 private:
-    ErrorEstimate predict(const Frame& frame, FrameErrors& errors);
+    void predict(const Frame& frame);
+    ErrorEstimate prediction() const;
     void measure(const Frame& frame);
 
+    double noise_ = std::numeric_limits<double>::quiet_NaN();  ///< Of the last denoised picture.
+    double raw_ = std::numeric_limits<double>::quiet_NaN();  ///< Likewise of its samples.
     int predicted_pairs_ = 0;  ///< Since the last cut.
     double predicted_ = 0;  ///< Running mean of the denoised picture's error.
     double predicted_square_ = 0;  ///< Of predicted_'s own standard error.

@@ -49,22 +49,23 @@ void add_denoiser(
     buffers.blended = svgf.blended;
     buffers.history_length = svgf.history_length;
     buffers.denoised = add_composite(graph, "composite", inputs, buffers.gbuffer, svgf.filtered);
-    if (!plan.settings.error_estimate)
-        return;
-    add_predict(graph, inputs, buffers.gbuffer, buffers.noisy, svgf.filtered,
-        {buffers.denoised, plan.frame_index});
-    if (plan.settings.view == DebugView::kPredictedDeviation)
+    if (plan.looks.predicts)
+        add_predict(graph, inputs, buffers.gbuffer, buffers.noisy, svgf.filtered,
+            {buffers.denoised, plan.looks.second_of_pair});
+    if (plan.settings.error_estimate && plan.settings.view == DebugView::kPredictedDeviation)
         buffers.deviation =
             add_deviation(graph, inputs, buffers.gbuffer, svgf.filtered, buffers.denoised);
 }
 
 /// The running mean, and the picture that turns into it.
-TextureHandle add_mean(FrameGraph& graph, const FramePlan& plan, FrameBuffers& buffers)
+TextureHandle add_mean(
+    FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan, FrameBuffers& buffers)
 {
-    const Mean mean = add_accumulate(graph, buffers.raw, plan.mean_frames, plan.reference);
+    const Mean mean = add_accumulate(graph, buffers.raw, plan.mean_frames, plan.looks.reference);
     buffers.mean = mean.radiance;
-    if (plan.measures)
-        add_measure(graph, mean, plan.measures_reference ? buffers.denoised : TextureHandle{});
+    if (plan.looks.measures)
+        add_measure(graph, inputs, buffers.gbuffer, mean,
+            plan.looks.measured_against > 0 ? buffers.denoised : TextureHandle{});
     if (plan.settings.view == DebugView::kMeasuredError && is_denoised(plan))
         buffers.distance = add_distance(graph, buffers.denoised, mean.radiance);
     if (plan.settings.view == DebugView::kFlip && is_denoised(plan))
@@ -121,7 +122,7 @@ TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const Fr
     if (denoises)
         add_denoiser(graph, inputs, plan, buffers);
     const TextureHandle radiance =
-        is_averaged(plan) ? add_mean(graph, plan, buffers) : buffers.denoised;
+        is_averaged(plan) ? add_mean(graph, inputs, plan, buffers) : buffers.denoised;
 
     if (settings.view == DebugView::kWipe) {
         const TextureHandle wipe = add_wipe(graph, buffers, settings);

@@ -9,16 +9,23 @@
 
 namespace farlight {
 
+/// What a frame tells of its error (server/render/error_schedule.h).
+struct ErrorLooks {
+    bool predicts = false;  ///< Sum up what samples say of the denoised picture's error.
+    bool second_of_pair = false;  ///< The frame before began a pair; see predict.comp.
+    bool measures = false;  ///< Sum up what is known of the mean's error and, against an older
+                            ///< mean, of the denoised picture's.
+    int measured_against = 0;  ///< Frames in the older mean; 0: there is none.
+    Reference reference = Reference::kAbsent;
+};
+
 /// What build_frame() needs to know beyond the settings.
 struct FramePlan {
     RenderSettings settings;
     int mean_frames = 1;  ///< Frames in the running mean with this one.
     std::uint32_t frame_index = 0;  ///< Frames since the cut.
     bool refine = false;
-    Reference reference = Reference::kAbsent;
-    bool measures = false;  ///< Sum up what is known of the mean's error and, against the
-                            ///< reference, of the denoised picture's.
-    bool measures_reference = false;  ///< There is one.
+    ErrorLooks looks;
     bool keeps_flip = false;  ///< The FLIP map is the last one, if there is one.
     float scene_radius = 1;  ///< [m], scales debug views.
     bool scatters = true;  ///< Something in the scene is lit and can show it.

@@ -77,10 +77,13 @@ void LiveScene::prepare_programs(const RenderSettings& settings)
     FramePlan moving;
     moving.settings = settings;
     moving.scatters = shared_.look.scatters;
+    moving.looks.predicts = settings.error_estimate;
     FramePlan resting = moving;
     resting.refine = true;
-    resting.measures = resting.measures_reference = true;
-    resting.reference = Reference::kKeep;
+    resting.looks = {.predicts = settings.error_estimate,
+        .measures = true,
+        .measured_against = 1,
+        .reference = Reference::kKeep};
     const auto declared = [](const FramePlan& plan) -> DeclareFrame {
         return [plan](FrameGraph& graph, const SceneInputs& inputs) {
             build_frame(graph, FrameInputs{inputs, {}}, plan);

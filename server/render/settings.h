@@ -93,9 +93,9 @@ struct RenderSettings {
     float reproject_depth = 2;
     float reproject_normal = 0.9F;
 
-    EffectChoice effects;
-
     bool error_estimate = true;
+
+    EffectChoice effects;
 
     int still_samples = 256;
     int refine_crossover = 64;
@@ -118,13 +118,22 @@ struct RenderSettings {
     /// to people.
     static void each_field(auto& s, auto&& visit)
     {
-        each_drawing_field(s, visit);
+        each_sampling_field(s, visit);
+        each_time_field(s, visit);
+        each_filter_field(s, visit);
         each_showing_field(s, visit);
     }
 
+    /// Of these, what a denoised picture depends on, whatever the scene and the camera: what is
+    /// known of its error holds while they stay.
+    static void each_picture_field(auto& s, auto&& visit)
+    {
+        each_sampling_field(s, visit);
+        each_filter_field(s, visit);
+    }
+
 private:
-    /// Samples, time and filter.
-    static void each_drawing_field(auto& s, auto& visit)
+    static void each_sampling_field(auto& s, auto& visit)
     {
         visit(s.denoiser, "denoiser", kDenoiserNames, "how samples become a picture");
         visit(s.samples_per_pixel, "samples_per_pixel", IntRange{1, 1024},
@@ -139,11 +148,19 @@ private:
             "where samples are averaged, spread them over the pixel's area");
         visit(s.seed, "seed", IntRange{0, std::numeric_limits<std::uint32_t>::max()},
             "same seed, same picture");
+    }
+
+    static void each_time_field(auto& s, auto& visit)
+    {
         visit(s.play, "play", IntRange{0, 1}, "time passes in a scene that moves");
         visit(
             s.time, "time", RealRange{0, 3600}, "[s] of a scene that moves: setting it goes there");
         visit(s.time_step, "time_step", RealRange{0.0001, 10},
             "[s] that pass from frame to frame in lockstep; else it is the clock that runs");
+    }
+
+    static void each_filter_field(auto& s, auto& visit)
+    {
         visit(s.history_max, "history_max", IntRange{1, 4096},
             "[frames] longest history a pixel remembers");
         visit(s.svgf_alpha, "svgf_alpha", RealRange{0.001, 1},
@@ -167,6 +184,8 @@ private:
             "surface");
         visit(s.reproject_normal, "reproject_normal", RealRange{-1, 1},
             "least cosine between the normals of a pixel and its history");
+        visit(s.error_estimate, "error_estimate", IntRange{0, 1},
+            "estimate the picture's relMSE: predicted while it moves, measured when it rests");
     }
 
     /// Programs, costs, and what is made of the result.
@@ -175,8 +194,6 @@ private:
         visit(s.effects, "effects", TextRule{},
             "effects compiled in: auto (what the scene calls for), general (all), or a list of "
             "names with commas; less than the scene calls for is refused");
-        visit(s.error_estimate, "error_estimate", IntRange{0, 1},
-            "estimate the picture's relMSE: predicted while it moves, measured when it rests");
         visit(s.still_samples, "still_samples", IntRange{1, 65536},
             "samples a pixel after which a resting picture is final and sent lossless");
         visit(s.refine_crossover, "refine_crossover", IntRange{1, 65536},

@@ -17,8 +17,6 @@ template <typename T> std::span<const std::byte> object_bytes(const T& object)
     return std::as_bytes(std::span<const T, 1>(&object, 1));
 }
 
-/// Frames between two looks at the noise of a mean without a filter.
-constexpr int kPlainStretch = 8;
 /// A map for the eye is not worth drawing for every frame that is watched.
 constexpr std::chrono::milliseconds kFlipPeriod{500};
 
@@ -32,15 +30,13 @@ float radical_inverse(int n, int base)
     return static_cast<float>(value);
 }
 
-/// Frames between two measurements of a resting picture: those within which the denoiser forgets,
-/// a mirror's light last (svgf/temporal.comp).
-int stretch_of(const FramePlan& plan, bool specular)
+/// What a denoised picture depends on besides the scene and where it is seen from.
+std::vector<double> filter_key(const RenderSettings& settings, Extent drawn)
 {
-    if (!is_denoised(plan))
-        return kPlainStretch;
-    const RenderSettings& s = plan.settings;
-    const double alpha = (specular ? 0.25 : 1) * static_cast<double>(s.svgf_alpha);
-    return frames_to_forget(std::max(alpha, 1.0 / s.history_max));
+    std::vector<double> key{static_cast<double>(drawn.width), static_cast<double>(drawn.height)};
+    RenderSettings::each_picture_field(settings,
+        [&](const auto& member, auto&&...) { key.push_back(static_cast<double>(member)); });
+    return key;
 }
 
 /// Where in its pixel frame `index` of a mean looks [px from the middle]: first the middle itself,
@@ -81,31 +77,6 @@ View::View(const SharedScene& scene)
         graph_.keep_all();
 }
 
-/// Settings that act on pictures after they are denoised, or on when they are drawn, are left out.
-View::FilterKey View::filter_key(const RenderSettings& settings, Extent drawn)
-{
-    const RenderSettings neutral;
-    FilterKey key{settings, drawn};
-    RenderSettings& s = key.settings;
-    s.play = neutral.play;
-    s.time = neutral.time;
-    s.time_step = neutral.time_step;
-    s.effects = neutral.effects;
-    s.still_samples = neutral.still_samples;
-    s.refine_crossover = neutral.refine_crossover;
-    s.budget_ms = neutral.budget_ms;
-    s.target_error = neutral.target_error;
-    s.resolution_scale = neutral.resolution_scale;  // `drawn` tells
-    s.exposure = neutral.exposure;
-    s.tonemap = neutral.tonemap;
-    s.view = neutral.view;
-    s.wipe_left = neutral.wipe_left;
-    s.wipe_right = neutral.wipe_right;
-    s.wipe_position = neutral.wipe_position;
-    s.jpeg_quality = neutral.jpeg_quality;
-    return key;
-}
-
 /// Brings the counts of frames up to date with what changed since the last request.
 void View::follow(const RenderRequest& request)
 {
@@ -124,9 +95,9 @@ void View::follow(const RenderRequest& request)
     still_frames_ = same ? still_frames_ + 1 : 1;
     mean_frames_ = averages ? (same ? mean_frames_ + 1 : 1) : 0;
     key_ = key;
-    const FilterKey filter = filter_key(s, drawn);
+    std::vector<double> filter = filter_key(s, drawn);
     new_filter_ = filter != filter_;
-    filter_ = filter;
+    filter_ = std::move(filter);
 }
 
 /// The scene as it is in this frame and was in the last; the milliseconds that took, 0 where
@@ -200,9 +171,6 @@ bool View::keeps_flip(const RenderRequest& request)
     return keeps;
 }
 
-/// What the frame consists of, and whether it measures its error. At the end of every stretch of
-/// frames that the denoiser forgets within, its picture is compared with the mean as it was when
-/// the stretch began.
 FramePlan View::plan_of(const RenderRequest& request)
 {
     FramePlan plan;
@@ -214,21 +182,8 @@ FramePlan View::plan_of(const RenderRequest& request)
     plan.scene_radius = scene_.look.radius;
     plan.scatters = scene_.look.scatters;
     plan.linear_output = request.format == PixelFormat::kRgb32f;
-    measured_against_ = 0;
-    if (mean_frames_ <= 1 || new_filter_ || !request.settings.error_estimate || !is_averaged(plan))
-        reference_frames_ = 0;
-    if (!request.settings.error_estimate || !is_averaged(plan))
-        return plan;
     const bool specular = scene_.scene_programs.scene_mask().has("specular_signal");
-    const bool at_end = mean_frames_ % stretch_of(plan, specular) == 0;
-    plan.measures = at_end && mean_frames_ > 1;
-    if (is_denoised(plan)) {
-        plan.reference = at_end ? Reference::kTake : Reference::kKeep;
-        plan.measures_reference = plan.measures && reference_frames_ > 1;
-        measured_against_ = plan.measures_reference ? reference_frames_ : 0;
-        if (at_end)
-            reference_frames_ = mean_frames_;
-    }
+    plan.looks = schedule_.next(plan, new_filter_, specular);
     return plan;
 }
 
@@ -302,16 +257,18 @@ RenderedFrame View::finish()
         frame_.memory.emplace_back(std::move(held.name), held.bytes);
     glGetNamedBufferSubData(
         counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
-    const bool predicts = is_denoised(plan_) && plan_.settings.error_estimate;
+    const ErrorLooks& looks = plan_.looks;
     frame_.errors = errors_.add({
         .starts_anew = frame_.history_reset || new_filter_,
-        .predicted = predicts ? tile_sums(TileSums::kPredicted) : std::vector<glm::vec4>{},
-        .measured = plan_.measures ? tile_sums(TileSums::kMeasured) : std::vector<glm::vec4>{},
+        .predicted = looks.predicts ? tile_sums(TileSums::kPredicted) : std::vector<glm::vec4>{},
+        .second_of_pair = looks.second_of_pair,
+        .denoised = is_denoised(plan_) && plan_.settings.error_estimate,
+        .measured = looks.measures ? tile_sums(TileSums::kMeasured) : std::vector<glm::vec4>{},
         .extent = key_.extent,
         .samples_per_pixel = plan_.settings.samples_per_pixel,
         .mean_frames = mean_frames_,
         .mean_weight = mean_weight(plan_),
-        .reference_frames = measured_against_,
+        .reference_frames = looks.measured_against,
     });
     frame_.frame_ms = frame_.trace_ms + graph_.frame_time();
     for (const TimedPass& pass : graph_.collect_times()) {

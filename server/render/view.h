@@ -5,7 +5,7 @@
 #include "server/gl/buffer.h"
 #include "server/gl/program_cache.h"
 #include "server/render/error_estimate.h"
-#include "server/render/frame.h"
+#include "server/render/error_schedule.h"
 #include "server/render/readback.h"
 #include "server/render/renderer.h"
 #include "server/render/scene_look.h"
@@ -74,16 +74,6 @@ private:
         bool operator==(const SampleKey&) const = default;
     };
 
-    /// What a denoised picture depends on besides the scene and where it is seen from: while it
-    /// stays, what is known of its error does.
-    struct FilterKey {
-        RenderSettings settings;
-        Extent extent;
-
-        bool operator==(const FilterKey&) const = default;
-    };
-    static FilterKey filter_key(const RenderSettings& settings, Extent drawn);
-
     bool moves() const { return scene_.gpu != nullptr && scene_.gpu->moves(); }
     /// What of `time` can be seen [s].
     double moment_shown(double time) const { return moves() ? scene_.gpu->moment_shown(time) : 0; }
@@ -104,7 +94,7 @@ private:
     Buffer counters_;
     Readback readback_;
     SampleKey key_;
-    FilterKey filter_;
+    std::vector<double> filter_;  ///< What the denoised picture depends on: see filter_key().
     bool new_filter_ = false;  ///< It changed with this frame.
     Extent full_extent_;  ///< Of the last frame.
     shared::CameraConstants prev_camera_{};
@@ -115,13 +105,12 @@ private:
     std::uint32_t frame_index_ = 0;  ///< Frames since the cut.
     int still_frames_ = 0;  ///< Frames since the key last changed, with this one.
     int mean_frames_ = 0;  ///< Frames in the running mean, with this one; 0: it does not run.
-    int reference_frames_ = 0;  ///< Frames in the older mean to measure against; 0: there is none.
     std::chrono::steady_clock::time_point flip_drawn_;  ///< Not just kept, when last asked for.
     Buffer tiles_;  ///< What the error estimate sums up.
+    ErrorSchedule schedule_;
     ErrorRecord errors_;
     RenderedFrame frame_;  ///< Of the frame in flight.
     FramePlan plan_;  ///< Likewise.
-    int measured_against_ = 0;  ///< Likewise: reference_frames_ while it is drawn.
 };
 
 }  // namespace farlight

@@ -6,7 +6,7 @@
 #include "lib/numbers.glsl"
 
 #ifdef LIT
-uniform sampler2D in_albedo;
+uniform sampler2D in_albedo;  // a: 1 on a surface
 #endif
 #ifdef FX_SPECULAR_SIGNAL
 uniform sampler2D in_reflectance;

@@ -2,7 +2,8 @@
 //
 // Noise is what halves of the samples differ by (svgf/noise.glsl). The whole error follows from samples that a half picture
 // does not hold: x_1 - B_1 and x_2 - B_2 of one pixel of colour A in two frames are independent but for what B is off, so
-// their product is its square in the mean. Frames go in pairs for that, whose chessboards are alike.
+// their product is its square in the mean. Frames go in pairs for that, whose chessboards are alike: the first tells the
+// noise and leaves its differences, the second the products.
 //
 //   in   in_direct, in_indirect, in_specular, in_scattered              rgba32f  filtered light, noise a
 //        noisy_direct, noisy_indirect, noisy_specular, noisy_scattered  rgba32f  this frame's
@@ -10,10 +11,12 @@
 //        prev_difference                                                rgba32f  x_1 - B_1, in the second of a pair
 //        in_motion, and the G-buffer textures of composite/compose.glsl
 //   out  out_difference                                                 rgba32f  x_1 - B_1, relative to the picture
-//        tile_block: sums of relative square errors: of the filtered picture's noise (x), of this frame's samples
-//        themselves (y); in the second of a pair the products (z), and how many (w)
+//        tile_block: in the first of a pair sums of relative square errors over the pixels that count, of the filtered
+//        picture's noise (x) and of this frame's samples (y), and how many pixels these are (w); in the second the
+//        products (z), and how many (w)
 #version 450
 #include "error_estimate/noise_of_picture.glsl"
+#include "error_estimate/counts.glsl"
 #include "error_estimate/tiles.glsl"
 
 uniform sampler2D in_picture;
@@ -60,18 +63,27 @@ Differences differences_at(ivec2 px)
     return d;
 }
 
-vec4 sums_at(ivec2 px)
+vec4 first_of_pair(ivec2 px)
 {
     const Differences d = differences_at(px);
-    vec2 product = vec2(0.0);
-    if (second_of_pair == 0) {
-        imageStore(out_difference, px, vec4(d.half_picture, 0.0));
-    } else {
-        const vec4 motion = texelFetch(in_motion, px, 0);
-        const ivec2 before = ivec2(floor(vec2(px) + 0.5 + motion.xy));
-        // Of the other colour, the older sample would be in this one's half picture.
-        if (motion.w > 0.0 && inside_prev_frame(before) && half_sign(before) == half_sign(px))
-            product = vec2(dot(d.half_picture, texelFetch(prev_difference, before, 0).rgb) / 3.0, 1.0);
-    }
-    return vec4(dot(d.noise, d.noise) / 3.0, dot(d.raw, d.raw) / 3.0, product);
+    imageStore(out_difference, px, vec4(d.half_picture, 0.0));
+    return vec4(dot(d.noise, d.noise) / 3.0, dot(d.raw, d.raw) / 3.0, 0.0, 1.0);
+}
+
+vec4 in_second_of_pair(ivec2 px)
+{
+    const vec4 motion = texelFetch(in_motion, px, 0);
+    const ivec2 before = ivec2(floor(vec2(px) + 0.5 + motion.xy));
+    // Of the other colour, the older sample would be in this one's half picture.
+    if (!(motion.w > 0.0) || !inside_prev_frame(before) || half_sign(before) != half_sign(px))
+        return vec4(0.0);
+    const vec3 half_picture = differences_at(px).half_picture;
+    return vec4(0.0, 0.0, dot(half_picture, texelFetch(prev_difference, before, 0).rgb) / 3.0, 1.0);
+}
+
+vec4 sums_at(ivec2 px)
+{
+    if (second_of_pair != 0)
+        return in_second_of_pair(px);
+    return counts(px) ? first_of_pair(px) : vec4(0.0);
 }

@@ -1,12 +1,11 @@
 // What the server says of its pictures' errors, against what they are.
-#include "server/render/error_estimate.h"
+#include "server/render/error_schedule.h"
 
 #include "tests/support/gl_test.h"
 #include "tests/support/meshes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <random>
 
 namespace farlight {
@@ -37,9 +36,9 @@ std::vector<glm::vec4> random_tiles(Extent extent, std::uint32_t seed)
 TEST(MeanOfTiles, WeighsPixelsEqually)
 {
     const Extent extent{9, 8};  // a whole tile and a column of 8 pixels
-    const std::vector<glm::vec4> sums{{64, 0, 6, 3}, {80, 0, 0, 0}};
+    const std::vector<glm::vec4> sums{{6, 0, 12, 3}, {0, 0, 0, 0}};
     EXPECT_DOUBLE_EQ(mean_of_tiles(sums, extent, 0).value, 2);
-    EXPECT_DOUBLE_EQ(mean_of_tiles(sums, extent, 2, Over::kPairs).value, 2);
+    EXPECT_DOUBLE_EQ(mean_of_tiles(sums, extent, 2).value, 4);
     EXPECT_FALSE(mean_of_tiles(sums, {8, 8}, 0).deviation >= 0) << "one tile has no spread";
 }
 
@@ -69,9 +68,10 @@ TEST(ErrorRecord, KnowsNothingWithoutSums)
 /// A picture of 30 frames' mean, whose frames are off by 0.6 each, weighs 0.75 in what is shown.
 TEST(ErrorRecord, BlendsTheErrorsOfDenoisedPictureAndMean)
 {
-    const std::vector<glm::vec4> measured(4, glm::vec4(64 * 0.04F, 0, 64 * 0.02F, 0));
-    const std::vector<glm::vec4> predicted(4, glm::vec4(64 * 0.01F, 64 * 0.5F, 0, 0));
+    const std::vector<glm::vec4> measured(4, glm::vec4(64 * 0.04F, 0, 64 * 0.02F, 64));
+    const std::vector<glm::vec4> predicted(4, glm::vec4(64 * 0.01F, 64 * 0.5F, 0, 64));
     const FrameErrors errors = ErrorRecord().add({.predicted = predicted,
+        .denoised = true,
         .measured = measured,
         .extent = {16, 16},
         .samples_per_pixel = 2,
@@ -88,18 +88,74 @@ TEST(ErrorRecord, BlendsTheErrorsOfDenoisedPictureAndMean)
 
 TEST(ErrorRecord, ForgetsWhatItKnewOfAnotherPicture)
 {
-    const auto tiles = [](float half_picture) {
-        return std::vector<glm::vec4>(100, glm::vec4(0, 6.4F, 64 * half_picture, 64));
-    };
     ErrorRecord record;
+    const auto add_pair = [&](float half_picture, bool starts_anew) {
+        const std::vector<glm::vec4> first(100, glm::vec4(0, 6.4F, 0, 64));
+        const std::vector<glm::vec4> second(100, glm::vec4(0, 0, 64 * half_picture, 64));
+        record.add(
+            {.starts_anew = starts_anew, .predicted = first, .denoised = true, .extent = {80, 80}});
+        return record.add(
+            {.predicted = second, .second_of_pair = true, .denoised = true, .extent = {80, 80}});
+    };
     FrameErrors errors;
-    for (int i = 0; i < 20; ++i)
-        errors = record.add({.predicted = tiles(0.5F), .extent = {80, 80}});
+    for (int i = 0; i < 10; ++i)
+        errors = add_pair(0.5F, false);
     EXPECT_NEAR(errors.predicted.value, 0.5, 1e-6);
-    errors = record.add({.predicted = tiles(0.1F), .extent = {80, 80}});
+    EXPECT_NEAR(errors.raw, 0.1, 1e-6);
+    errors = add_pair(0.1F, false);
     EXPECT_GT(errors.predicted.value, 0.4) << "a single pair weighs little";
-    errors = record.add({.starts_anew = true, .predicted = tiles(0.1F), .extent = {80, 80}});
+    errors = add_pair(0.1F, true);
     EXPECT_NEAR(errors.predicted.value, 0.1, 1e-6);
+}
+
+TEST(ErrorRecord, KeepsWhatItKnowsBetweenPairs)
+{
+    const std::vector<glm::vec4> first(4, glm::vec4(0.64F, 6.4F, 0, 64));
+    ErrorRecord record;
+    record.add({.predicted = first, .denoised = true, .extent = {16, 16}});
+    const FrameErrors errors = record.add({.denoised = true, .extent = {16, 16}});
+    EXPECT_NEAR(errors.noise, 0.01, 1e-6);
+    EXPECT_NEAR(errors.raw, 0.1, 1e-6);
+    const FrameErrors plain = record.add({.extent = {16, 16}});
+    EXPECT_TRUE(std::isnan(plain.noise)) << "of a picture that is not denoised nothing is known";
+}
+
+/// Looks of frames `first` to `last`, P: first of a pair, p: second, -: neither.
+std::string looks_of(ErrorSchedule& schedule, int first, int last, bool new_filter = false)
+{
+    std::string text;
+    FramePlan plan;
+    for (int i = first; i <= last; ++i) {
+        plan.frame_index = static_cast<std::uint32_t>(i);
+        const ErrorLooks looks = schedule.next(plan, new_filter && i == first, false);
+        EXPECT_TRUE(looks.predicts || !looks.second_of_pair);
+        text += !looks.predicts ? '-' : looks.second_of_pair ? 'p' : 'P';
+    }
+    return text;
+}
+
+TEST(ErrorSchedule, PairsFollowEachOtherWhileHistoriesGrowAndThenLeaveGaps)
+{
+    ErrorSchedule schedule;
+    EXPECT_EQ(looks_of(schedule, 0, 23), "PpPpPpPpPpPpPpPpPp--Pp--");
+    EXPECT_EQ(looks_of(schedule, 0, 3), "PpPp") << "a cut begins anew";
+}
+
+TEST(ErrorSchedule, AnotherFilterLeavesAPairUnfinished)
+{
+    ErrorSchedule schedule;
+    EXPECT_EQ(looks_of(schedule, 0, 20), "PpPpPpPpPpPpPpPpPp--P");
+    EXPECT_EQ(looks_of(schedule, 21, 40, true), "-PpPpPpPpPpPpPpPp--P");
+}
+
+TEST(ErrorSchedule, PredictsOnlyWhatIsDenoised)
+{
+    FramePlan plan;
+    plan.settings.denoiser = Denoiser::kOff;
+    EXPECT_FALSE(ErrorSchedule().next(plan, false, false).predicts);
+    plan.settings = {};
+    plan.settings.error_estimate = false;
+    EXPECT_FALSE(ErrorSchedule().next(plan, false, false).predicts);
 }
 
 TEST(FramesToForget, LeaveAThousandth)
@@ -119,20 +175,23 @@ double median_of(std::vector<double> values)
     return values[values.size() / 2];
 }
 
-double rel_mse(const Image& picture, const Image& reference)
+/// Over the pixels in which `depth`, the view, shows a surface.
+double rel_mse(const Image& picture, const Image& reference, const Image& depth)
 {
-    const std::size_t count = picture.bytes.size() / sizeof(float);
-    std::vector<float> x(count);
-    std::vector<float> r(count);
-    std::memcpy(x.data(), picture.bytes.data(), picture.bytes.size());
-    std::memcpy(r.data(), reference.bytes.data(), reference.bytes.size());
+    const std::vector<float> x = values_of(picture);
+    const std::vector<float> r = values_of(reference);
+    const std::vector<float> far = values_of(depth);
     double sum = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    double count = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        if (!(far[i] > 0))
+            continue;
         const double truth = static_cast<double>(r[i]);
         const double error = static_cast<double>(x[i]) - truth;
         sum += error * error / (truth * truth + 0.01);
+        ++count;
     }
-    return sum / static_cast<double>(count);
+    return sum / count;
 }
 
 class ErrorEstimateTest : public GlTest {
@@ -155,6 +214,12 @@ protected:
             frame = view.render(request);
         }
         return frame;
+    }
+
+    static Image depth_of(const TestScene& on_device, RenderRequest request)
+    {
+        request.settings.view = DebugView::kDepth;
+        return View(on_device.shared).render(request).image;
     }
 
     static Image reference(const TestScene& on_device, RenderRequest request, int frames)
@@ -219,14 +284,15 @@ TEST_F(ErrorEstimateTest, MeasuredIsTheErrorOfTheDenoisedPicture)
     RenderRequest request = request_of(scene);
     const Image truth = reference(on_device, request, 128);
     View denoised(on_device.shared);
-    const double actual = rel_mse(draw(denoised, request, 64, 0).image, truth);
+    const double actual =
+        rel_mse(draw(denoised, request, 64, 0).image, truth, depth_of(on_device, request));
     View resting(on_device.shared);
     request.refine = true;
     const RenderedFrame frame = draw(resting, request, 270, 0);
     EXPECT_NEAR(frame.errors.measured.value, actual, 0.25 * actual);
     EXPECT_LE(frame.errors.measured.lower, actual);
     EXPECT_GE(frame.errors.measured.upper, actual);
-    const double shown = rel_mse(frame.image, truth);
+    const double shown = rel_mse(frame.image, truth, depth_of(on_device, request));
     EXPECT_NEAR(frame.errors.predicted.value, shown, 0.4 * shown) << "of the refined picture";
     EXPECT_EQ(frame.errors.reference_samples, 217U) << "7 stretches of 31 frames, of 8";
     request.camera.position.x += 1;
@@ -244,7 +310,7 @@ TEST_F(ErrorEstimateTest, PlainMeansKnowTheirNoise)
     request.settings.denoiser = Denoiser::kAccumulate;
     View view(on_device.shared);
     const RenderedFrame frame = draw(view, request, 128, 0);
-    const double actual = rel_mse(frame.image, truth);
+    const double actual = rel_mse(frame.image, truth, depth_of(on_device, request));
     EXPECT_NEAR(frame.errors.predicted.value, actual, 0.2 * actual);
     EXPECT_NEAR(frame.errors.effective_samples, 128, 1);
     EXPECT_FALSE(frame.errors.measured.known());
@@ -276,14 +342,16 @@ TEST_F(ErrorEstimateTest, AChangedFilterIsMeasuredAnew)
 
 class ErrorEstimateLongTest : public ErrorEstimateTest { };
 
-/// Of 200 seeded pictures of a real scene, whose blocks are not quite independent: intervals hold
-/// the error that the picture has.
-TEST_F(ErrorEstimateLongTest, MeasuredIntervalsCoverTheTruth)
+/// Of 200 seeded pictures of a real scene: intervals of 95 % hold the error that the picture has in
+/// 90 % or more. They come from how parts of one picture differ, which is more than seeds do: the
+/// measured ones hold it in all 200, the predicted ones in 185.
+TEST_F(ErrorEstimateLongTest, IntervalsCoverTheTruth)
 {
     Scene scene = shipped_scene("cornell_box.json");
     const TestScene on_device(scene);
     RenderRequest request = request_of(scene);
     const Image truth = reference(on_device, request, 512);
+    const Image depth = depth_of(on_device, request);
     int covered = 0;
     int predicted = 0;
     for (std::uint32_t seed = 0; seed < 200; ++seed) {
@@ -294,13 +362,13 @@ TEST_F(ErrorEstimateLongTest, MeasuredIntervalsCoverTheTruth)
         request.settings.seed = seed;
         request.refine = false;
         RenderedFrame frame = draw(view, request, 40, 0);
-        const double actual = rel_mse(frame.image, truth);
+        const double actual = rel_mse(frame.image, truth, depth);
         predicted += holds(frame.errors.predicted, actual);
         request.refine = true;
         covered += holds(draw(view, request, 124, 0).errors.measured, actual);
     }
-    std::printf("of 200: measured %d, predicted %d\n", covered, predicted);
     EXPECT_GE(covered, 180);
+    EXPECT_GE(predicted, 180);
 }
 
 }  // namespace

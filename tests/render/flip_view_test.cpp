@@ -9,19 +9,11 @@
 #include "tests/support/gl_test.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace farlight {
 namespace {
 
 constexpr Extent kFlipExtent{67, 45};
-
-std::vector<float> values_of(const Image& image)
-{
-    std::vector<float> values(image.bytes.size() / sizeof(float));
-    std::memcpy(values.data(), image.bytes.data(), image.bytes.size());
-    return values;
-}
 
 float largest_of(const Image& map)
 {

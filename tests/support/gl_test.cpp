@@ -44,6 +44,13 @@ Scene GlTest::shipped_scene(const std::string& name)
     return load_scene(std::string(FARLIGHT_SOURCE_DIR) + "/scenes/" + name);
 }
 
+std::vector<float> values_of(const Image& image)
+{
+    std::vector<float> values(image.bytes.size() / sizeof(float));
+    std::memcpy(values.data(), image.bytes.data(), image.bytes.size());
+    return values;
+}
+
 glm::vec3 pixel(const Image& image, int x, int y)
 {
     glm::vec3 value;

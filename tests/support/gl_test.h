@@ -38,6 +38,9 @@ protected:
     static Scene shipped_scene(const std::string& name);
 };
 
+/// Of a picture in linear numbers, three a pixel.
+std::vector<float> values_of(const Image& image);
+
 /// The pixel (x, y) of a linear image.
 glm::vec3 pixel(const Image& image, int x, int y);
 

@@ -1,28 +1,20 @@
 // Estimates in double precision.
 #include "tests/support/statistics.h"
 
+#include "tests/support/gl_test.h"
+
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstring>
 
 namespace farlight {
-namespace {
-
-std::vector<float> floats_of(const Image& image)
-{
-    std::vector<float> values(image.bytes.size() / sizeof(float));
-    std::memcpy(values.data(), image.bytes.data(), image.bytes.size());
-    return values;
-}
-
-}  // namespace
 
 Estimate mean_of(const Image& image)
 {
     double mean = 0;
     double m2 = 0;
     double count = 0;
-    for (const float value : floats_of(image)) {
+    for (const float value : values_of(image)) {
         count += 1;
         const double delta = value - mean;
         mean += delta / count;
@@ -47,8 +39,8 @@ Image difference_of(const Image& a, Image b)
 
 double relative_mse(const Image& image, const Image& reference)
 {
-    const std::vector<float> x = floats_of(image);
-    const std::vector<float> r = floats_of(reference);
+    const std::vector<float> x = values_of(image);
+    const std::vector<float> r = values_of(reference);
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         const double d = static_cast<double>(x[i]) - r[i];
