@@ -3,12 +3,12 @@
 // farlight-ray-bench [--device D]: a table of primary, diffuse-bounce and shadow rays on three
 // scenes. Embree runs rtcIntersect1 / rtcOccluded1 on every core; the ratio is what travels between
 // machines, the rates do not.
+#include "lab/embree_oracle.h"
+#include "lab/meshes.h"
 #include "server/gl/context.h"
 #include "server/gl/program.h"
 #include "server/render/camera.h"
 #include "server/scene/scene_file.h"
-#include "tests/support/embree_oracle.h"
-#include "tests/support/meshes.h"
 
 #include <algorithm>
 #include <chrono>

@@ -111,7 +111,7 @@ def main():
     os.makedirs(stamps, exist_ok=True)
     flags = flags_of_files(build_folder)
     common = read(".clang-tidy") + subprocess.check_output(["clang-tidy", "--version"])
-    files = sources.files_under(["server", "protocol", "client"], [".cpp"])
+    files = sources.files_under(["server", "protocol", "client", "lab"], [".cpp"])
     assert files, "not run from the root of the source tree"
 
     failures = 0

@@ -3,9 +3,9 @@
 //
 // Statistical tests use fixed seeds; the bounds are 5 standard errors, which a fresh seed would
 // exceed by chance once in 1.7 million.
+#include "lab/statistics.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/moving_scenes.h"
-#include "tests/support/statistics.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -29,7 +29,7 @@ Scene black_veil(float opacity)
 
 Estimate mean_picture(const Scene& scene, int frames, double time = 0)
 {
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     RenderSettings settings;
     settings.denoiser = Denoiser::kAccumulate;
     settings.antialiasing = false;
@@ -129,7 +129,7 @@ TEST_F(BlendTest, ManyVeilsEndNoLoop)
     sun.kind = PunctualLight::Kind::kDirectional;
     sun.direction = glm::normalize(glm::dvec3(0.3, -1, 0.1));
     scene.lights.push_back(sun);
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const auto mean_of_frames = [&](int frames, int samples) {
         RenderRequest request = linear_request(on_device.scene, {16, 16}, {});
         request.settings.denoiser = Denoiser::kAccumulate;
@@ -187,7 +187,7 @@ Scene foggy_box(int open_masks)
 TEST_F(BlendTest, OpenMasksCutNoLongPathShort)
 {
     const auto picture = [](const Scene& scene) {
-        const TestScene on_device(scene);
+        const DeviceScene on_device(scene);
         RenderRequest request = linear_request(on_device.scene, {16, 16}, {});
         request.settings.denoiser = Denoiser::kAccumulate;
         request.settings.max_depth = request.settings.roulette_depth = 64;
@@ -237,7 +237,7 @@ TEST_F(BlendTest, AMaskCutsWhereItsTextureSays)
     veil.albedo_texture.image = 0;
     veil.albedo_texture.nearest = true;
     scene.objects.push_back({"quad", 0, Quad{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}});
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     RenderSettings settings;
     settings.denoiser = Denoiser::kOff;
     settings.antialiasing = false;
@@ -285,7 +285,7 @@ Scene half_there()
 /// counted twice or caught, inside glass that was entered through a hole too.
 TEST_F(BlendTest, WhiteThingsThatAreHalfThereVanish)
 {
-    const TestScene on_device(half_there());
+    const DeviceScene on_device(half_there());
     RenderRequest request = linear_request(on_device.scene, kExtent, {});
     request.settings.denoiser = Denoiser::kAccumulate;
     request.settings.max_depth = request.settings.roulette_depth = 48;
@@ -306,7 +306,7 @@ TEST_F(BlendTest, WhiteThingsThatAreHalfThereVanish)
 /// Through a hole a thing is what it is without anything in front, its motion too.
 TEST_F(BlendTest, ThroughHolesThingsAreAsWithNothingInFront)
 {
-    const auto picture = [](const TestScene& on_device, DebugView which) {
+    const auto picture = [](const DeviceScene& on_device, DebugView which) {
         RenderRequest request = linear_request(on_device.scene, kExtent, {});
         request.settings.view = which;
         View view(on_device.shared);
@@ -327,8 +327,8 @@ TEST_F(BlendTest, ThroughHolesThingsAreAsWithNothingInFront)
     veiled.images.push_back({"holes", 2, 1, {{255, 255, 255, 0}, {255, 255, 255, 255}}});
     veiled.objects.push_back({"lattice", 3, Quad{{-3, -2, 1.5}, {6, 0, 0}, {0, 4, 0}}});
     const auto lattice = static_cast<float>(veiled.objects.size() - 1);
-    const TestScene veiled_things(veiled);
-    const TestScene things(open);
+    const DeviceScene veiled_things(veiled);
+    const DeviceScene things(open);
     const Image objects = picture(veiled_things, DebugView::kObjectId);
     for (const DebugView which :
         {DebugView::kObjectId, DebugView::kPosition, DebugView::kMotion, DebugView::kMaterialId}) {

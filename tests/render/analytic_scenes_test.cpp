@@ -2,14 +2,14 @@
 //
 // Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
 // which a fresh seed would exceed by chance once in 1.7 million.
+#include "lab/statistics.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 namespace farlight {
 namespace {
 
 /// The accumulated mean of `frames` frames of `settings`.
-Image accumulate(const TestScene& scene, RenderRequest request, int frames)
+Image accumulate(const DeviceScene& scene, RenderRequest request, int frames)
 {
     request.settings.denoiser = Denoiser::kAccumulate;
     View view(scene.shared);
@@ -61,7 +61,7 @@ protected:
 /// Every BSDF sample meets the same radiance: no variance at all, so every pixel is exact.
 TEST_P(FurnaceTest, WithoutLightSamplingEveryPixelIsExact)
 {
-    const TestScene scene(furnace(GetParam().albedo));
+    const DeviceScene scene(furnace(GetParam().albedo));
     RenderSettings s = settings();
     s.light_sampling = false;
     View view(scene.shared);
@@ -75,7 +75,7 @@ TEST_P(FurnaceTest, WithoutLightSamplingEveryPixelIsExact)
 
 TEST_P(FurnaceTest, WithLightSamplingTheMeanIsExpected)
 {
-    const TestScene scene(furnace(GetParam().albedo));
+    const DeviceScene scene(furnace(GetParam().albedo));
     RenderSettings s = settings();
     s.samples_per_pixel = 64;
     const Estimate estimate =
@@ -87,7 +87,7 @@ TEST_P(FurnaceTest, WithLightSamplingTheMeanIsExpected)
 /// Ending paths by chance changes nothing in the mean.
 TEST_P(FurnaceTest, RussianRouletteIsUnbiased)
 {
-    const TestScene scene(furnace(GetParam().albedo));
+    const DeviceScene scene(furnace(GetParam().albedo));
     RenderSettings s = settings();
     s.light_sampling = false;
     s.roulette_depth = 2;
@@ -130,7 +130,7 @@ TEST_P(LampTest, LightSamplingAgreesWithChanceHits)
         scene.objects.push_back(
             {"light", 1, Quad{at + glm::dvec3(-0.5, 2, -0.5), {1, 0, 0}, {0, 0, 1}}});
     scene.camera = {at + glm::dvec3(1.5, 1, 1.5), at, {0, 1, 0}, 30};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     Estimate estimates[2];
     for (const bool light_sampling : {false, true}) {
         RenderSettings s;
@@ -162,7 +162,7 @@ TEST_F(GlTest, WhiteSphereUnderAWhiteSkyDisappears)
     scene.background = glm::vec3(1);
     scene.camera.position = {0, 0, 3};
     scene.camera.target = {0, 0, 0};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderSettings s;
     s.denoiser = Denoiser::kOff;
@@ -183,7 +183,7 @@ TEST_F(GlTest, QuadEmitsOnTheSideItsNormalPointsTo)
                 {"light", 0, Quad{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}});  // normal +z
             scene.camera.position = {0, 0, front ? 2 : -2};
             scene.camera.target = {0, 0, 0};
-            const TestScene on_device(scene);
+            const DeviceScene on_device(scene);
             View view(on_device.shared);
             const RenderedFrame frame = view.render(linear_request(on_device.scene, {8, 8}, {}));
             EXPECT_EQ(pixel(frame.image, 4, 4), front || both ? glm::vec3(3, 2, 1) : glm::vec3(0));

@@ -3,10 +3,10 @@
 //
 // Seeds are fixed; the bounds are 5 standard errors, which a fresh seed would exceed once in 1.7
 // million, and what the albedo tables are interpolated to, 2e-3 a bounce.
+#include "lab/meshes.h"
+#include "lab/statistics.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/lossless_materials.h"
-#include "tests/support/meshes.h"
-#include "tests/support/statistics.h"
 
 #include <functional>
 #include <random>
@@ -99,7 +99,7 @@ class WhiteFurnace : public GlTest, public testing::WithParamInterface<MaterialF
 
 TEST_P(WhiteFurnace, EverythingWhiteDisappears)
 {
-    const TestScene scene(GetParam().scene);
+    const DeviceScene scene(GetParam().scene);
     RenderRequest request = linear_request(scene.scene, {48, 36}, {});
     request.settings.denoiser = Denoiser::kAccumulate;
     request.settings.max_depth = 48;

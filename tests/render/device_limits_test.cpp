@@ -1,9 +1,9 @@
 // Scenes larger than a device allows: split where they can be, else refused with the limit and the
 // need. The device here is the usual one with lower limits.
+#include "lab/meshes.h"
 #include "server/gl/gl_error.h"
 #include "server/scene/neutral.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 
 #include <gmock/gmock.h>
 
@@ -81,15 +81,15 @@ TEST_F(DeviceLimitsTest, ASceneSplitOverArraysLooksTheSame)
 {
     DeviceLimits limits = device_limits();
     limits.textures.layers = 2;
-    const TestScene whole(many_images(5));
-    const TestScene split(many_images(5), limits);
-    const auto picture = [](const TestScene& scene) {
+    const DeviceScene whole(many_images(5));
+    const DeviceScene split(many_images(5), limits);
+    const auto picture = [](const DeviceScene& scene) {
         View view(scene.shared);
         RenderSettings settings;
         settings.view = DebugView::kAlbedo;
         return view.render(linear_request(scene.scene, {60, 40}, settings)).image.bytes;
     };
-    const auto arrays = [](const TestScene& scene) {
+    const auto arrays = [](const DeviceScene& scene) {
         return std::count_if(scene.shared.gpu->allocations().begin(),
             scene.shared.gpu->allocations().end(),
             [](const Allocation& held) { return held.name.starts_with("texture_array_"); });

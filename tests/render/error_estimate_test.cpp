@@ -1,8 +1,8 @@
 // What the server says of its pictures' errors, against what they are.
 #include "server/render/error_schedule.h"
 
+#include "lab/meshes.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -216,13 +216,13 @@ protected:
         return frame;
     }
 
-    static Image depth_of(const TestScene& on_device, RenderRequest request)
+    static Image depth_of(const DeviceScene& on_device, RenderRequest request)
     {
         request.settings.view = DebugView::kDepth;
         return View(on_device.shared).render(request).image;
     }
 
-    static Image reference(const TestScene& on_device, RenderRequest request, int frames)
+    static Image reference(const DeviceScene& on_device, RenderRequest request, int frames)
     {
         View view(on_device.shared);
         request.settings.denoiser = Denoiser::kAccumulate;
@@ -235,7 +235,7 @@ protected:
 TEST_F(ErrorEstimateTest, ChangesNoPixel)
 {
     Scene scene = shipped_scene("still_life.json");
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     for (const bool refine : {false, true}) {
         std::vector<Image> pictures;
         for (const bool estimate : {false, true}) {
@@ -258,7 +258,7 @@ TEST_F(ErrorEstimateTest, PredictedOverMeasuredIsCalibrated)
     for (const char* name : {"cornell_box", "four_spheres", "mirror", "glass", "environment",
              "many_lights", "textures", "lantern", "roughness_row"}) {
         Scene scene = shipped_scene(std::string(name) + ".json");
-        const TestScene on_device(scene);
+        const DeviceScene on_device(scene);
         RenderRequest request = request_of(scene);
         View moving(on_device.shared);
         const FrameErrors predicted = draw(moving, request, 32, 0.002).errors;
@@ -280,7 +280,7 @@ TEST_F(ErrorEstimateTest, PredictedOverMeasuredIsCalibrated)
 TEST_F(ErrorEstimateTest, MeasuredIsTheErrorOfTheDenoisedPicture)
 {
     Scene scene = shipped_scene("cornell_box.json");
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     RenderRequest request = request_of(scene);
     const Image truth = reference(on_device, request, 128);
     View denoised(on_device.shared);
@@ -304,7 +304,7 @@ TEST_F(ErrorEstimateTest, MeasuredIsTheErrorOfTheDenoisedPicture)
 TEST_F(ErrorEstimateTest, PlainMeansKnowTheirNoise)
 {
     Scene scene = shipped_scene("cornell_box.json");
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     RenderRequest request = request_of(scene);
     const Image truth = reference(on_device, request, 256);
     request.settings.denoiser = Denoiser::kAccumulate;
@@ -321,7 +321,7 @@ TEST_F(ErrorEstimateTest, PlainMeansKnowTheirNoise)
 TEST_F(ErrorEstimateTest, AChangedFilterIsMeasuredAnew)
 {
     Scene scene = shipped_scene("cornell_box.json");
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderRequest request = request_of(scene);
     request.refine = true;
@@ -348,7 +348,7 @@ class ErrorEstimateLongTest : public ErrorEstimateTest { };
 TEST_F(ErrorEstimateLongTest, IntervalsCoverTheTruth)
 {
     Scene scene = shipped_scene("cornell_box.json");
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     RenderRequest request = request_of(scene);
     const Image truth = reference(on_device, request, 512);
     const Image depth = depth_of(on_device, request);

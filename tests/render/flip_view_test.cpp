@@ -3,9 +3,9 @@
 
 #include "client/metrics/display.h"
 #include "client/metrics/flip.h"
+#include "lab/compute.h"
 #include "server/passes/debug_view.h"
 #include "server/render/readback.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
 
 #include <algorithm>
@@ -47,7 +47,7 @@ protected:
         return frame;
     }
 
-    TestScene on_device{shipped_scene("cornell_box.json")};
+    DeviceScene on_device{shipped_scene("cornell_box.json")};
 };
 
 TEST_F(FlipViewTest, IsTheClientsFlipOfDenoisedPictureAndMean)
@@ -169,7 +169,7 @@ TEST_F(FlipViewTest, StaysWithinTheMemoryThatViewsAreBookedFor)
     every_signal.materials[0].metallic = 0.5F;
     every_signal.materials[0].roughness = 0.3F;
     every_signal.medium.sigma_s = glm::vec3(0.01F);
-    const TestScene scene(every_signal);
+    const DeviceScene scene(every_signal);
     View view(scene.shared);
     RenderRequest request = request_of(DebugView::kFlip);
     request.format = PixelFormat::kRgb8;

@@ -2,9 +2,9 @@
 //
 // Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
 // which a fresh seed would exceed by chance once in 1.7 million.
+#include "lab/statistics.h"
 #include "server/render/camera.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 namespace farlight {
 namespace {
@@ -33,7 +33,7 @@ RenderSettings settings_of(int max_depth, int samples)
     return s;
 }
 
-Image mean_picture(const TestScene& scene, const RenderSettings& settings, int frames)
+Image mean_picture(const DeviceScene& scene, const RenderSettings& settings, int frames)
 {
     View view(scene.shared);
     const RenderRequest request = linear_request(scene.scene, kFogExtent, settings);
@@ -53,7 +53,7 @@ TEST_F(GlTest, AbsorbingFogFollowsBeerAndLambert)
     scene.objects.push_back({"wall", 0, Quad{{-4, -4, 0}, {8, 0, 0}, {0, 8, 0}}});
     scene.medium.sigma_a = {0.1F, 0.4F, 2};
     scene.camera = {{0.2, -0.1, 3}, {0, 0, 0}, {0, 1, 0}, 50};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const Image image = mean_picture(on_device, settings_of(4, 1), 1);
     const shared::CameraConstants camera = camera_constants(scene.camera, kFogExtent);
     for (int y = 0; y < kFogExtent.height; ++y)
@@ -90,7 +90,7 @@ TEST_P(WhiteFogTest, VanishesUnderAWhiteSky)
     scene.materials[0].albedo = glm::vec3(1);
     scene.background = glm::vec3(1);
     scene.camera = {{0, 1, 3.2}, {0, 0, 0}, {0, 1, 0}, 45};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     RenderSettings s = settings_of(64, grey ? 8 : 256);
     const Image image = mean_picture(on_device, s, 1);
     if (grey) {
@@ -145,7 +145,7 @@ TEST_P(GlowTest, PointLightInFogEqualsQuadrature)
     // of the box around the ball.
     const double radius = 4 * std::sqrt(3.0);
     scene.camera = {{-2, 1.6, 0}, {2, 1.6, 0}, {0, 1, 0}, 0.5};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const Estimate estimate = mean_of(mean_picture(on_device, settings_of(2, 256), 2));
 
     double expected = 0;
@@ -180,7 +180,7 @@ TEST_F(GlTest, InFogLightSamplingAgreesWithChanceHits)
     scene.materials.push_back({"light", glm::vec3(0), glm::vec3(2), true});
     scene.objects.push_back({"lamp", 1, Quad{{-1, 1.5, -1}, {2, 0, 0}, {0, 0, 2}}});
     scene.camera = {{0, 1, 4}, {0, 0.5, 0}, {0, 1, 0}, 50};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     Image images[2];
     for (const bool light_sampling : {false, true}) {
         RenderSettings s = settings_of(5, 256);
@@ -201,7 +201,7 @@ TEST_F(GlTest, FilterKeepsFogWhereItIs)
     scene.materials[0].albedo = glm::vec3(1);
     scene.background = glm::vec3(1);
     scene.camera = {{0, 1, 3.2}, {0, 0, 0}, {0, 1, 0}, 45};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderSettings s = settings_of(64, 1);
     s.denoiser = Denoiser::kSvgf;

@@ -1,6 +1,6 @@
 // FrameGraph: what it refuses, what it keeps, what it reuses.
+#include "lab/compute.h"
 #include "server/gl/gl_error.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
 
 namespace farlight {

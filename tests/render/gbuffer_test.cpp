@@ -1,7 +1,7 @@
 // The G-buffer against a double-precision camera on the CPU: motion, depth and its gradient.
+#include "lab/meshes.h"
+#include "lab/projection.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
-#include "tests/support/projection.h"
 
 namespace farlight {
 namespace {
@@ -31,7 +31,7 @@ class MotionTest : public GlTest, public testing::WithParamInterface<Move> { };
 TEST_P(MotionTest, EqualsADoublePrecisionReprojection)
 {
     Scene scene = shipped_scene("cornell_box.json");
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     CameraPose before = scene.camera;
     CameraPose now = before;
     now.position += GetParam().position;
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Moves, MotionTest,
 TEST_F(GlTest, RestingCameraHasExactlyNoMotion)
 {
     Scene scene = shipped_scene("four_spheres.json");
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     view_of(view, scene, scene.camera, DebugView::kMotion);
     const Image motion = view_of(view, scene, scene.camera, DebugView::kMotion);
@@ -85,7 +85,7 @@ TEST_F(GlTest, DepthGradientIsThePlanesOwn)
     scene.materials.push_back({"white"});
     scene.objects.push_back({"plane", 0, Quad{{-100, -1, -100}, {0, 0, 200}, {200, 0, 0}}});
     scene.camera = {{0, 1, 0}, {0.3, 0, -2}, {0, 1, 0}, 40};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     const Image depth = view_of(view, scene, scene.camera, DebugView::kDepth);
     const Image gradient = view_of(view, scene, scene.camera, DebugView::kDepthGradient);
@@ -137,7 +137,7 @@ class SelfIntersectionTest : public GlTest, public testing::WithParamInterface<P
 TEST_P(SelfIntersectionTest, WhiteThingsUnderAWhiteSkyVanish)
 {
     const auto& [name, scale, at] = GetParam();
-    const TestScene on_device(white_things(scale, scale * at));
+    const DeviceScene on_device(white_things(scale, scale * at));
     RenderSettings s;
     s.denoiser = Denoiser::kOff;
     s.max_depth = 64;  // a path that has not escaped by then was caught

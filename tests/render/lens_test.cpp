@@ -1,7 +1,7 @@
 // The thin lens, and where in its pixel a ray looks.
+#include "lab/statistics.h"
 #include "server/render/camera.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 namespace farlight {
 namespace {
@@ -23,7 +23,7 @@ Scene lamp_at(double z, double half, double lens_radius)
 
 Image mean_emission(const Scene& scene, int frames, bool antialiasing)
 {
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderSettings s;
     s.denoiser = Denoiser::kAccumulate;
@@ -117,7 +117,7 @@ TEST_F(GlTest, LensFocusesOnTheTarget)
 /// Lens samples are part of the G-buffer: a resting camera still has exactly no motion.
 TEST_F(GlTest, OutOfFocusARestingCameraHasNoMotion)
 {
-    const TestScene on_device(lamp_at(8, 2, 0.5));
+    const DeviceScene on_device(lamp_at(8, 2, 0.5));
     View view(on_device.shared);
     RenderSettings s;
     s.view = DebugView::kMotion;

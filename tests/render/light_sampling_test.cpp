@@ -3,10 +3,10 @@
 //
 // Seeds are fixed, so the tests are deterministic. With a fresh seed each would fail by chance once
 // in 10 000 runs.
+#include "lab/compute.h"
+#include "lab/statistics.h"
 #include "shaders/shared/frame_constants.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 #include <functional>
 #include <random>
@@ -46,8 +46,8 @@ protected:
         return scene;
     }
 
-    static std::vector<glm::vec4> run(
-        const TestScene& on_device, const char* entry, std::size_t results, std::size_t invocations)
+    static std::vector<glm::vec4> run(const DeviceScene& on_device, const char* entry,
+        std::size_t results, std::size_t invocations)
     {
         const SamplingCase& c = GetParam();
         add_shader_file("tests/light_sampling", kShader);
@@ -130,7 +130,7 @@ void main()
 
 TEST_P(LightSamplingTest, SamplesFollowTheDensityOfHits)
 {
-    const TestScene on_device(scene());
+    const DeviceScene on_device(scene());
     const std::vector<glm::vec4> density =
         run(on_device, "DENSITY", kBins * kPlaces, kBins * kPlaces);
     const std::vector<glm::vec4> samples = run(on_device, "SAMPLES", kSamples, kSamples);

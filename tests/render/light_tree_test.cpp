@@ -3,10 +3,10 @@
 //
 // Seeds are fixed, so the tests are deterministic. With a fresh seed a chi-squared test would fail
 // by chance once in 10 000 runs.
+#include "lab/compute.h"
+#include "lab/statistics.h"
 #include "server/scene/flatten.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <random>
@@ -18,7 +18,7 @@ constexpr std::size_t kPoints = 48;
 constexpr std::size_t kDraws = 4096;  // a point
 
 /// Makes the device choose the scene's lights by power, as if they were too few for a tree.
-void drop_tree(const TestScene& on_device)
+void drop_tree(const DeviceScene& on_device)
 {
     const TextureLayout layout(on_device.scene.images);
     const LightTable by_power(
@@ -75,7 +75,7 @@ class LightTreeTest : public GlTest {
 protected:
     /// Runs `body` for each of kPoints points and normals; it sees `i`, `position` and `normal`.
     static std::vector<glm::vec4> at_points(
-        const TestScene& lights, const std::string& body, std::size_t results)
+        const DeviceScene& lights, const std::string& body, std::size_t results)
     {
         add_shader_file("tests/light_tree", R"(#version 450
 #include "lib/random.glsl"
@@ -105,7 +105,7 @@ TEST_F(LightTreeTest, ProbabilitiesSumToOne)
     for (PunctualLight& light : scene.lights)
         if (light.kind == PunctualLight::Kind::kSpot)
             light.kind = PunctualLight::Kind::kPoint;
-    const TestScene lights(scene);
+    const DeviceScene lights(scene);
     const std::vector<glm::vec4> sums = at_points(lights, R"(
     float sum = 0.0;
     for (uint light = 0u; light < LIGHT_COUNT; ++light) {
@@ -122,7 +122,7 @@ TEST_F(LightTreeTest, ProbabilitiesSumToOne)
 
 TEST_F(LightTreeTest, ChoosesEachLightAsOftenAsItSays)
 {
-    const TestScene lights(mixed_lights(100));
+    const DeviceScene lights(mixed_lights(100));
     const std::size_t count = lights.shared.light_count;
     const std::vector<glm::vec4> results = at_points(lights, R"(
     for (uint light = 0u; light < LIGHT_COUNT; ++light) {
@@ -188,7 +188,7 @@ Scene lamp_field(int n)
     return scene;
 }
 
-Estimate radiance(const TestScene& lights, bool light_sampling, int samples)
+Estimate radiance(const DeviceScene& lights, bool light_sampling, int samples)
 {
     RenderSettings s;
     s.max_depth = 2;
@@ -205,7 +205,7 @@ Estimate radiance(const TestScene& lights, bool light_sampling, int samples)
 
 TEST_F(LightTreeTest, AgreesWithSamplingByPowerAndIsMuchLessNoisy)
 {
-    const TestScene scene(lamp_field(16));
+    const DeviceScene scene(lamp_field(16));
     ASSERT_TRUE(scene.inputs.calls_for("FX_LIGHT_TREE"));
     const Estimate tree = radiance(scene, true, 16);
     const Estimate chance = radiance(scene, false, 64);

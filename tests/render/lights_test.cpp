@@ -2,9 +2,9 @@
 //
 // Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
 // which a fresh seed would exceed by chance once in 1.7 million.
+#include "lab/statistics.h"
 #include "server/scene/packed_scene.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 #include <functional>
 #include <numbers>
@@ -14,7 +14,7 @@ namespace {
 
 using std::numbers::pi;
 
-Estimate mean_radiance(const TestScene& scene, const RenderSettings& settings, int frames)
+Estimate mean_radiance(const DeviceScene& scene, const RenderSettings& settings, int frames)
 {
     RenderRequest request = linear_request(scene.scene, {32, 32}, settings);
     request.settings.denoiser = Denoiser::kAccumulate;
@@ -50,7 +50,7 @@ void place_light(Scene& scene, const std::variant<Sphere, Quad, MeshInstance, Di
 
 /// Light that the plane reflects, to 5 standard errors and `tolerance` times it.
 void expect_mean(
-    const TestScene& scene, double expected, double tolerance, int samples, bool light_sampling)
+    const DeviceScene& scene, double expected, double tolerance, int samples, bool light_sampling)
 {
     RenderSettings s;
     s.max_depth = 2;
@@ -76,7 +76,7 @@ class IrradianceTest : public GlTest, public testing::WithParamInterface<Irradia
 
 TEST_P(IrradianceTest, LightAndBsdfSamplingGiveTheClosedForm)
 {
-    const TestScene scene(plane_under(GetParam().add_lights));
+    const DeviceScene scene(plane_under(GetParam().add_lights));
     const double expected = 0.5 / pi * GetParam().expected;
     // 2e-4: E changes by about that much over the piece of plane that is seen.
     expect_mean(scene, expected, 2e-4, GetParam().samples, true);
@@ -254,7 +254,7 @@ class PatternTest : public GlTest, public testing::WithParamInterface<PatternCas
 TEST_P(PatternTest, LightAndBsdfSamplingAgreeOnAQuadAndOnAMesh)
 {
     for (const bool mesh : {false, true}) {
-        const TestScene scene(plane_under([&](Scene& s) {
+        const DeviceScene scene(plane_under([&](Scene& s) {
             GetParam().dress(s);
             if (!mesh) {
                 place_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
@@ -282,7 +282,7 @@ constexpr double kLeftHalf = 0.2833226;
 /// A disc shows one texel all over, that of its picture's corner.
 TEST_F(GlTest, LightAndBsdfSamplingAgreeOnATexturedDisk)
 {
-    const TestScene scene(plane_under([](Scene& s) {
+    const DeviceScene scene(plane_under([](Scene& s) {
         s.images.push_back(half({128, 128, 128, 255}, {255, 255, 255, 255}));
         s.materials[1].emission_texture.image = 0;
         s.materials[1].emission_texture.wrap_u = Wrap::kClamp;
@@ -319,7 +319,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, PatternTest,
 /// Several kinds at once, side by side: irradiances add up.
 TEST_F(GlTest, LightsOfSeveralKindsAddUp)
 {
-    const TestScene scene(plane_under([](Scene& s) {
+    const DeviceScene scene(plane_under([](Scene& s) {
         place_light(s, unit_quad_above(1, {0.5, 0, 0.5}));
         place_light(s, sphere_at_angle(2, 0.5, -0.6));
         s.lights.push_back({.intensity = glm::vec3(3),

@@ -123,7 +123,7 @@ class MirroredPartsTest : public GlTest {
 protected:
     static Image picture(By by, bool moving)
     {
-        const TestScene scene(mirrored_parts(by, moving));
+        const DeviceScene scene(mirrored_parts(by, moving));
         EXPECT_EQ(scene.inputs.calls_for("FX_INSTANCES"), moving);
         EXPECT_TRUE(scene.inputs.calls_for("FX_NORMAL_MAPS"));
         RenderRequest request = linear_request(scene.scene, kMirroredExtent, {});

@@ -1,7 +1,7 @@
 // Moving things on the device: an instance is what the same thing is flattened, it is not met again
 // by rays that leave it, and poses depend on time alone.
+#include "lab/meshes.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 #include "tests/support/moving_scenes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -76,8 +76,8 @@ protected:
 /// At time 1 what moved stands where the same thing at rest does.
 TEST_P(InstanceTest, LooksLikeTheSameThingAtRest)
 {
-    const TestScene resting(scene(false));
-    const TestScene moving(scene(true));
+    const DeviceScene resting(scene(false));
+    const DeviceScene moving(scene(true));
     ASSERT_TRUE(moving.inputs.calls_for("FX_INSTANCES"));
     const double size =
         scene_bounds(resting.scene).radius() + glm::length(GetParam().at * GetParam().scale);
@@ -105,7 +105,7 @@ TEST_P(InstanceTest, LooksLikeTheSameThingAtRest)
 /// surface it left.
 TEST_P(InstanceTest, IsNotMetAgainByRaysThatLeaveIt)
 {
-    const TestScene on_device(scene(true));
+    const DeviceScene on_device(scene(true));
     RenderSettings s;
     s.denoiser = Denoiser::kOff;
     s.max_depth = 64;
@@ -132,7 +132,7 @@ TEST_F(GlTest, AfterTheLastKeyTimeGoesOnButThePictureRests)
         scene, [](std::size_t i) { return placed(i, 1, {}); }, true);
     const Course course = course_of(scene.animation);
     ASSERT_FALSE(course.any_repeats);
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderRequest request = linear_request(on_device.scene, {32, 24}, RenderSettings{});
     request.settings.denoiser = Denoiser::kAccumulate;
@@ -158,7 +158,7 @@ TEST_F(GlTest, PausedThingsHaveExactlyNoMotion)
     hang_on_nodes(
         resting, [](std::size_t i) { return placed(i, 1, {}); }, false);
     for (Scene source : {bending_bar(12, 8), swelling_sphere(12, 8), things, resting}) {
-        const TestScene on_device(std::move(source));
+        const DeviceScene on_device(std::move(source));
         ASSERT_TRUE(on_device.inputs.calls_for("FX_INSTANCES")
             || on_device.inputs.calls_for("FX_DEFORMATION"));
         View view(on_device.shared);
@@ -173,7 +173,7 @@ TEST_F(GlTest, PausedThingsHaveExactlyNoMotion)
 /// What it takes to pose the scene is told, as a pass, in frames that did.
 TEST_F(GlTest, PosingIsTimedWhereSomethingHasMoved)
 {
-    const TestScene on_device(bending_bar(12, 8));
+    const DeviceScene on_device(bending_bar(12, 8));
     View view(on_device.shared);
     RenderRequest request = linear_request(on_device.scene, {8, 8}, {});
     const auto poses = [&](double time) {
@@ -194,7 +194,7 @@ TEST_F(GlTest, PosingIsTimedWhereSomethingHasMoved)
 /// A frame depends on its time and the last frame's, not on what was drawn before.
 TEST_F(GlTest, PosesDependOnTimeAlone)
 {
-    const TestScene on_device(bending_bar(12, 8));
+    const DeviceScene on_device(bending_bar(12, 8));
     View first(on_device.shared);
     const Image fresh = view_of(first, on_device.scene, DebugView::kPosition, 0.5);
     View second(on_device.shared);

@@ -1,10 +1,10 @@
 // Motion vectors as the G-buffer writes them, against a double-precision oracle that poses things
 // by their formulas: rigid, skinned, morphed, at rest, each under a moving camera, and all
 // together. The camera alone: gbuffer_test.cpp.
+#include "lab/meshes.h"
+#include "lab/projection.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 #include "tests/support/moving_scenes.h"
-#include "tests/support/projection.h"
 
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>
@@ -119,7 +119,7 @@ protected:
     /// Every pixel's motion from kThen to kNow, the camera moving too; `pasts` by object.
     static void expect_motion(const Scene& source, const std::vector<Past>& pasts)
     {
-        const TestScene on_device(source);
+        const DeviceScene on_device(source);
         const Scene& scene = on_device.scene;
         const CameraPose& camera = scene.camera;
         CameraPose before = camera;

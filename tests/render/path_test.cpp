@@ -3,9 +3,9 @@
 //
 // Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
 // which a fresh seed would exceed by chance once in 1.7 million.
+#include "lab/statistics.h"
 #include "tests/support/gl_test.h"
 #include "tests/support/lossless_materials.h"
-#include "tests/support/statistics.h"
 
 namespace farlight {
 namespace {
@@ -23,7 +23,7 @@ RenderSettings settings_of(int max_depth, int samples)
     return s;
 }
 
-Image picture(const TestScene& scene, const RenderSettings& settings)
+Image picture(const DeviceScene& scene, const RenderSettings& settings)
 {
     View view(scene.shared);
     RenderedFrame frame = view.render(linear_request(scene.scene, kPathExtent, settings));
@@ -50,7 +50,7 @@ TEST_P(ObjectFurnaceTest, LosslessBallUnderAWhiteSkyVanishes)
     scene.objects.push_back({"ball", 0, Sphere{{0, 0, 0}, 1}});
     scene.background = glm::vec3(1);
     scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 42};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const Estimate estimate = mean_of(picture(on_device, settings_of(64, 128)));
     EXPECT_NEAR(estimate.mean, 1, 5 * estimate.standard_error + tolerance);
     EXPECT_LT(estimate.standard_error, 0.004);
@@ -108,7 +108,7 @@ TEST_P(PlateTest, TransmitsWhatItMust)
     const auto& [name, thin, absorption, expected] = GetParam();
     Material material = thin ? lossless::thin_glass(0) : lossless::glass(0);
     material.absorption = glm::vec3(absorption);
-    const TestScene on_device(behind_plate(material, thin ? 0 : 0.7));
+    const DeviceScene on_device(behind_plate(material, thin ? 0 : 0.7));
     const Estimate estimate = mean_of(picture(on_device, settings_of(24, 256)));
     EXPECT_NEAR(estimate.mean, expected, 5 * estimate.standard_error + 1e-5);
     EXPECT_LT(estimate.standard_error, 1e-3);
@@ -140,7 +140,7 @@ TEST_F(GlTest, MirrorsFacingEachOtherMultiplyTheirReflectances)
     // Looking along x and down by a slope: a reflection every 2 / slope.
     const double slope = 0.45;
     scene.camera = {{0, 0, 0}, {1, -slope, 0}, {0, 1, 0}, 0.2};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const Image image = picture(on_device, settings_of(16, 1));
     // Unfolded, the ray is at height -20 * slope = -9 at the end: mirrors at -1, -3, -5, -7 and,
     // where the ray just reaches -9, the end itself comes first or last.
@@ -170,7 +170,7 @@ TEST_F(GlTest, LightSamplingAgreesWithChanceOnAllMaterials)
         scene.objects.push_back(
             {"ball", 2U + static_cast<unsigned>(i), Sphere{{-2.7 + 1.8 * i, -0.2, 0}, 0.8}});
     scene.camera = {{0, 2, 6}, {0, -0.3, 0}, {0, 1, 0}, 50};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     Image images[2];
     for (const bool light_sampling : {false, true}) {
         RenderSettings s = settings_of(5, 512);
@@ -197,7 +197,7 @@ TEST_F(GlTest, SignalsAddUpToThePicture)
             {"ball", 2U + static_cast<unsigned>(i), Sphere{{-2.0 + 2.0 * i, -0.2, 0}, 0.8}});
     scene.medium.sigma_s = glm::vec3(0.02F);
     scene.camera = {{0, 2, 6}, {0, -0.3, 0}, {0, 1, 0}, 50};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const auto render = [&](Denoiser denoiser) {
         RenderSettings s;
         s.denoiser = denoiser;
@@ -221,7 +221,7 @@ TEST_F(GlTest, ManySamplesInOneFrameAreAllTraced)
     scene.background = glm::vec3(1);
     scene.medium.sigma_s = glm::vec3(0.05F);
     scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 40};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View one(on_device.shared);
     View many(on_device.shared);
     const Extent extent{16, 16};
@@ -253,7 +253,7 @@ TEST_F(GlTest, NothingIsTracedWhereNothingScatters)
     for (auto& [scene, expected] :
         std::vector<std::pair<Scene, float>>{{black, 1.0F}, {dark, 0.0F}, {unlit, 1.0F}}) {
         scene.camera = {{0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 40};
-        const TestScene on_device(scene);
+        const DeviceScene on_device(scene);
         View view(on_device.shared);
         const Image image = view.render(linear_request(scene, kPathExtent, {})).image;
         for (const std::string& pass : view.graph().pass_names())

@@ -1,7 +1,7 @@
 // The render thread: several clients, refusals that hurt one client only, a device that fails.
+#include "lab/meshes.h"
 #include "server/render/renderer.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 
 #include <condition_variable>
 #include <epoxy/gl.h>
@@ -122,7 +122,7 @@ TEST_F(GlTest, ViewsStayWithinTheMemoryTheyAreBookedFor)
     every_signal.materials[0].metallic = 0.5F;
     every_signal.materials[0].roughness = 0.3F;
     every_signal.medium.sigma_s = glm::vec3(0.01F);
-    const TestScene scene(every_signal);
+    const DeviceScene scene(every_signal);
     View view(scene.shared);
     RenderRequest request = linear_request(scene.scene, {64, 64}, {});
     request.refine = true;

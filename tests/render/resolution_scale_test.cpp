@@ -1,6 +1,6 @@
 // Pictures drawn smaller than they are shown, and histories that live through the change.
+#include "lab/meshes.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 
 #include <algorithm>
 #include <cstring>
@@ -29,7 +29,7 @@ protected:
     }
 
     Scene scene_;
-    TestScene on_device_;
+    DeviceScene on_device_;
 };
 
 TEST_F(ResolutionScaleTest, SidesAreScaledAndNeverVanish)

@@ -1,9 +1,9 @@
 // Which programs draw a scene, and that changing them, or the scene, between frames costs nobody
 // anything but what it must.
+#include "lab/meshes.h"
 #include "server/render/live_scene.h"
 #include "tests/scene/plain_scene.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 
 #include <atomic>
 #include <functional>

@@ -1,6 +1,6 @@
 // RenderSettings: text in and out, refusals, and that every row reaches the picture.
+#include "lab/meshes.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 
 #include <nlohmann/json.hpp>
 #include <set>
@@ -113,7 +113,7 @@ TEST_F(SettingsReachTheImage, EverySettingChangesTheImage)
         "play", "still_samples", "target_error", "time", "time_step", "wipe_left", "wipe_position",
         "wipe_right"};
     Scene scene = room_with(bumpy_sphere(24, 12));
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const auto render = [&](const RenderSettings& settings, bool refine) {
         View view(on_device.shared);
         RenderRequest request = linear_request(scene, {48, 32}, settings);
@@ -144,7 +144,7 @@ TEST_F(SettingsReachTheImage, EverySettingChangesTheImage)
 TEST_F(SettingsReachTheImage, StillSamplesDecidesWhenAPictureIsFinal)
 {
     Scene scene = room_with(bumpy_sphere(24, 12));
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderRequest request = linear_request(scene, {16, 16}, {});
     request.settings.still_samples = 6;
@@ -163,7 +163,7 @@ TEST_F(SettingsReachTheImage, StillSamplesDecidesWhenAPictureIsFinal)
 TEST_F(SettingsReachTheImage, EveryDebugViewDraws)
 {
     Scene scene = room_with(bumpy_sphere(24, 12));
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     for (const std::string_view view_name : kDebugViewNames)
         for (const std::string_view denoiser : kDenoiserNames)
             for (const PixelFormat format : {PixelFormat::kRgb8, PixelFormat::kRgb32f}) {
@@ -181,7 +181,7 @@ TEST_F(SettingsReachTheImage, EveryDebugViewDraws)
 TEST_F(SettingsReachTheImage, TheWipeShowsTwoStatesOfThePicture)
 {
     Scene scene = room_with(bumpy_sphere(24, 12));
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const auto render = [&](const std::vector<const char*>& settings) {
         View view(on_device.shared);
         RenderRequest request = linear_request(scene, {16, 9}, {});
@@ -210,7 +210,7 @@ TEST_F(SettingsReachTheImage, TheWipeShowsTwoStatesOfThePicture)
 TEST_F(SettingsReachTheImage, AViewWithoutItsBufferIsZero)
 {
     Scene scene = room_with(bumpy_sphere(24, 12));
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     for (const char* view_name : {"variance", "history_length"})
         for (const char* denoiser : {"none", "svgf"}) {
             View view(on_device.shared);

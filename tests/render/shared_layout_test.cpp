@@ -1,6 +1,6 @@
 // Structs that both compilers read lie alike: the driver is asked for every member's offset.
+#include "lab/compute.h"
 #include "shaders/shared/frame_constants.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
 
 namespace farlight {

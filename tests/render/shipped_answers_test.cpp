@@ -60,7 +60,7 @@ TEST_P(ShippedAnswersTest, IsWhatTheReadmeSays)
     const Answer& answer = GetParam();
     Scene scene = shipped_scene(answer.scene);
     scene.camera = answer.camera;
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     RenderSettings s;
     s.denoiser = Denoiser::kAccumulate;
     s.max_depth = answer.max_depth;

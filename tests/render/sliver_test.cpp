@@ -30,7 +30,7 @@ class SliverTest : public GlTest, public testing::WithParamInterface<bool> { };
 TEST_P(SliverTest, FacesWhoeverLooks)
 {
     constexpr Extent kRows{16, 9};
-    const TestScene scene(slivers(GetParam()));
+    const DeviceScene scene(slivers(GetParam()));
     const auto frame_of = [&](DebugView which) {
         RenderRequest request = linear_request(scene.scene, kRows, {});
         request.settings.denoiser = Denoiser::kOff;

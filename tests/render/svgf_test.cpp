@@ -1,7 +1,7 @@
 // SVGF over time: history length, constancy, quality, determinism, feedback.
+#include "lab/meshes.h"
+#include "lab/statistics.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
-#include "tests/support/statistics.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -22,7 +22,7 @@ class SvgfTest : public GlTest { };
 /// Row 0 and column 0 are pixels like any other.
 TEST_F(SvgfTest, HistoryLengthCountsFramesEverywhereUnderAStillCamera)
 {
-    const TestScene scene(room_with(bumpy_sphere(24, 12)));
+    const DeviceScene scene(room_with(bumpy_sphere(24, 12)));
     View view(scene.shared);
     RenderRequest request = request_view(scene.scene, DebugView::kHistoryLength);
     request.settings.history_max = 6;
@@ -46,7 +46,7 @@ TEST_F(SvgfTest, NewlyRevealedPixelsStartWithOneFrame)
     scene.objects.push_back({"ball", 1, Sphere{{0, 0, 0}, 1}});
     scene.background = glm::vec3(1);
     scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 45};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderRequest request = request_view(scene, DebugView::kHistoryLength);
     for (int i = 0; i < 8; ++i)
@@ -104,7 +104,7 @@ TEST_F(SvgfTest, NewlyRevealedPixelsStartWithOneFrame)
 /// A cut forgets everything: lengths start at one, random numbers start over.
 TEST_F(SvgfTest, CutRestartsHistoryAndRandomNumbers)
 {
-    const TestScene scene(room_with(bumpy_sphere(24, 12)));
+    const DeviceScene scene(room_with(bumpy_sphere(24, 12)));
     View view(scene.shared);
     RenderRequest request = linear_request(scene.scene, kSvgfExtent, {});
     const RenderedFrame first = view.render(request);
@@ -118,7 +118,7 @@ TEST_F(SvgfTest, CutRestartsHistoryAndRandomNumbers)
 
 TEST_F(SvgfTest, SameSeedSameBytesAndAnotherSeedOthers)
 {
-    const TestScene scene(room_with(bumpy_sphere(24, 12)));
+    const DeviceScene scene(room_with(bumpy_sphere(24, 12)));
     const auto run = [&](std::uint32_t seed) {
         View view(scene.shared);
         RenderRequest request = linear_request(scene.scene, kSvgfExtent, {});
@@ -149,7 +149,7 @@ TEST_F(SvgfTest, ConstantPictureStaysConstant)
         material.emission = glm::vec3(1);
         material.emits_both_sides = true;
     }
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderRequest request = linear_request(scene, kSvgfExtent, {});
     request.settings.light_sampling = false;
@@ -173,7 +173,7 @@ TEST_F(SvgfTest, RemodulationIsTheInverseOfDemodulation)
 {
     Scene scene = room_with(bumpy_sphere(24, 12));
     scene.materials[0].albedo = {0, 0.37F, 1};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     const auto render = [&](Denoiser denoiser) {
         View view(on_device.shared);
         RenderRequest request = linear_request(scene, kSvgfExtent, {});
@@ -193,7 +193,7 @@ TEST_F(SvgfTest, EmittersAndSkyBypassTheFilter)
     scene.objects.push_back({"light", 1, Sphere{{0, 0, 0}, 0.7}});
     scene.background = {0.1F, 0.2F, 0.3F};
     scene.camera = {{0, 0.5, 4}, {0, 0, 0}, {0, 1, 0}, 45};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     View view(on_device.shared);
     RenderRequest request = linear_request(scene, kSvgfExtent, {});
     RenderedFrame frame;
@@ -240,7 +240,7 @@ TEST_P(MirrorMotionTest, WhatAMirrorShowsIsFoundAgain)
         scene.objects.push_back({"mirror", 0, Quad{{-9, 0, -9}, {0, 0, 18}, {18, 0, 0}}});
     scene.background = glm::vec3(0.2F);
     scene.camera = {{0, 2, 3}, {0, 0, -2}, {0, 1, 0}, 50};
-    const TestScene on_device(scene);
+    const DeviceScene on_device(scene);
     constexpr Extent kLarge{160, 120};
     const auto last_of_a_pan = [&](Denoiser denoiser) {
         RenderSettings settings;
@@ -270,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(Mirrors, MirrorMotionTest, testing::Bool(),
 /// orbit.
 TEST_F(SvgfTest, BeatsRawSamplesTenfoldAtRestAndFivefoldInMotion)
 {
-    const TestScene scene(shipped_scene("cornell_box.json"));
+    const DeviceScene scene(shipped_scene("cornell_box.json"));
     constexpr Extent kSmall{96, 96};
     const glm::dvec3 middle = scene_bounds(scene.scene).center();
     const auto camera_at = [&](double degrees) {

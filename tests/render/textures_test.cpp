@@ -1,7 +1,7 @@
 // Texture lookups on the device against an oracle in double precision.
+#include "lab/compute.h"
 #include "server/scene/device_limits.h"
 #include "server/scene/texture_arrays.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
 
 #include <random>

@@ -1,10 +1,10 @@
 // Traversal on the device against Embree, ray by ray; and rays aimed where two triangles meet.
+#include "lab/compute.h"
+#include "lab/embree_oracle.h"
+#include "lab/meshes.h"
 #include "server/gl/buffer.h"
 #include "shaders/shared/scene_layout.h"
-#include "tests/support/compute.h"
-#include "tests/support/embree_oracle.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/meshes.h"
 
 #include <fstream>
 #include <random>
@@ -35,7 +35,7 @@ void main()
 }
 )";
 
-std::vector<DeviceHit> trace_on_device(const TestScene& scene, const std::vector<TestRay>& rays)
+std::vector<DeviceHit> trace_on_device(const DeviceScene& scene, const std::vector<TestRay>& rays)
 {
     add_shader_file("tests/trace", kTraceShader);
     const Program program(load_shader_source("tests/trace", scene.inputs.defines));
@@ -109,7 +109,7 @@ TEST_P(TraversalTest, EqualsEmbreeForAHundredThousandRays)
         GTEST_SKIP() << "the model is not on this machine";
     std::erase_if(
         scene->objects, [](const Object& object) { return !object.framed; });  // a default lamp
-    const TestScene on_device(*scene);
+    const DeviceScene on_device(*scene);
     const PackedScene packed = pack_scene(*scene);
     const EmbreeOracle oracle(packed);
     const Bounds bounds = scene_bounds(*scene);
@@ -151,7 +151,7 @@ TEST_P(LeakTest, NoRaySlipsBetweenTriangles)
     const glm::vec3 center(GetParam(), -0.5F * GetParam(), 0.25F * GetParam());
     Scene scene = scene_of(bumpy_sphere(120, 60, center));
     const PackedScene packed = pack_scene(scene);
-    const TestScene on_device(std::move(scene));
+    const DeviceScene on_device(std::move(scene));
     std::mt19937 random(3);
     std::uniform_real_distribution<float> uniform(0, 1);
     std::size_t missed = 0;

@@ -1,8 +1,8 @@
 // bsdf/interior.glsl over packed materials: a straight line through a glass of water with ice in
 // it.
+#include "lab/compute.h"
 #include "server/gl/buffer.h"
 #include "server/scene/materials.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
 
 namespace farlight {

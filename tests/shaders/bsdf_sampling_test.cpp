@@ -4,13 +4,13 @@
 // Seeds are fixed, so the tests are deterministic. With fresh seeds one of all chi-squared tests
 // would fail by chance once in 100 runs (Sidak), a furnace test once in 1.7 million (5 standard
 // errors).
+#include "lab/compute.h"
+#include "lab/statistics.h"
 #include "server/gl/buffer.h"
 #include "server/scene/albedo_tables.h"
 #include "server/scene/effects.h"
 #include "tests/shaders/bsdf_cases.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 #include <cmath>
 #include <cstring>

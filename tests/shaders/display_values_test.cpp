@@ -1,7 +1,7 @@
 // The client's display values (client/metrics/display.h) are those of lib/display.glsl.
 #include "client/metrics/display.h"
+#include "lab/compute.h"
 #include "server/gl/buffer.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
 
 #include <cmath>

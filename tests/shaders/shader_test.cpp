@@ -1,7 +1,7 @@
 // Finds every *_test.comp beside this file and runs it as one test.
+#include "lab/compute.h"
 #include "server/gl/buffer.h"
 #include "shaders/shared/frame_constants.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
 
 #include <filesystem>

@@ -3,10 +3,10 @@
 //
 // Seeds are fixed, so the tests are deterministic. With fresh seeds one of all would fail by chance
 // once in 1000 runs (Bonferroni).
+#include "lab/compute.h"
+#include "lab/statistics.h"
 #include "server/gl/buffer.h"
-#include "tests/support/compute.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/statistics.h"
 
 #include <functional>
 #include <numbers>

@@ -1,32 +1,7 @@
 // The process-wide test context.
 #include "tests/support/gl_test.h"
 
-#include "server/scene/neutral.h"
-
-#include <cstring>
-
 namespace farlight {
-namespace {
-
-Scene without_neutral(Scene scene)
-{
-    drop_neutral(scene);
-    return scene;
-}
-
-}  // namespace
-
-TestScene::TestScene(Scene s, const DeviceLimits& limits)
-    : scene(without_neutral(std::move(s)))
-    , gpu_scene_(std::make_shared<GpuScene>(scene, limits))
-    , scene_programs_(programs_, nullptr, nullptr, {})
-    , inputs{gpu_scene_->textures(), gpu_scene_->defines()}
-    , shared{programs_, scene_programs_, look_of(scene),
-          static_cast<std::uint32_t>(gpu_scene_->light_count()), true, true}
-{
-    shared.gpu = gpu_scene_.get();
-    scene_programs_.follow(gpu_scene_);
-}
 
 const Context& GlTest::context()
 {
@@ -42,31 +17,6 @@ void GlTest::SetUpTestSuite()
 Scene GlTest::shipped_scene(const std::string& name)
 {
     return load_scene(std::string(FARLIGHT_SOURCE_DIR) + "/scenes/" + name);
-}
-
-std::vector<float> values_of(const Image& image)
-{
-    std::vector<float> values(image.bytes.size() / sizeof(float));
-    std::memcpy(values.data(), image.bytes.data(), image.bytes.size());
-    return values;
-}
-
-glm::vec3 pixel(const Image& image, int x, int y)
-{
-    glm::vec3 value;
-    const auto at = static_cast<std::size_t>(y * image.extent.width + x) * sizeof value;
-    std::memcpy(&value, &image.bytes[at], sizeof value);
-    return value;
-}
-
-RenderRequest linear_request(const Scene& scene, Extent extent, const RenderSettings& settings)
-{
-    RenderRequest request;
-    request.camera = scene.camera;
-    request.extent = extent;
-    request.settings = settings;
-    request.format = PixelFormat::kRgb32f;
-    return request;
 }
 
 }  // namespace farlight

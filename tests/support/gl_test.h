@@ -1,31 +1,13 @@
-// GlTest: one software context a process, and a way to render a scene without a server.
+// GlTest: one software context a process.
 #pragma once
 
+#include "lab/device_scene.h"
 #include "server/gl/context.h"
-#include "server/render/view.h"
 #include "server/scene/scene_file.h"
 
 #include <gtest/gtest.h>
-#include <memory>
 
 namespace farlight {
-
-/// A scene on the device, ready for views.
-class TestScene {
-public:
-    explicit TestScene(Scene s, const DeviceLimits& limits = device_limits());
-
-    Scene scene;
-
-private:
-    ProgramCache programs_;
-    std::shared_ptr<GpuScene> gpu_scene_;
-    ScenePrograms scene_programs_;
-
-public:
-    SceneInputs inputs;  ///< What shaders that see the scene are compiled with and bound to.
-    SharedScene shared;  ///< Refers to the members above.
-};
 
 class GlTest : public testing::Test {
 protected:
@@ -37,14 +19,5 @@ protected:
     /// A file of scenes/.
     static Scene shipped_scene(const std::string& name);
 };
-
-/// Of a picture in linear numbers, three a pixel.
-std::vector<float> values_of(const Image& image);
-
-/// The pixel (x, y) of a linear image.
-glm::vec3 pixel(const Image& image, int x, int y);
-
-/// A request for the scene's own camera with raw linear output.
-RenderRequest linear_request(const Scene& scene, Extent extent, const RenderSettings& settings);
 
 }  // namespace farlight

@@ -1,7 +1,7 @@
 // Motion by formula.
 #include "tests/support/moving_scenes.h"
 
-#include "tests/support/meshes.h"
+#include "lab/meshes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,5 +1,5 @@
 // Meshes and rooms by formula.
-#include "tests/support/meshes.h"
+#include "lab/meshes.h"
 
 #include <glm/gtc/constants.hpp>
 #include <random>

@@ -1,7 +1,7 @@
 // Estimates in double precision.
-#include "tests/support/statistics.h"
+#include "lab/statistics.h"
 
-#include "tests/support/gl_test.h"
+#include "lab/device_scene.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Binding, dispatch and reading back for shader tests.
-#include "tests/support/compute.h"
+#include "lab/compute.h"
 
 #include "server/gl/buffer.h"
 #include "server/gl/gl_error.h"

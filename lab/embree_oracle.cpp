@@ -1,5 +1,5 @@
 // Embree's scene from packed triangles.
-#include "tests/support/embree_oracle.h"
+#include "lab/embree_oracle.h"
 
 namespace farlight {
 namespace {
