@@ -24,8 +24,8 @@ double Measurement::margin() const
 
 const Measurement* Findings::decisive() const
 {
-    const auto least = std::min_element(
-        all_.begin(), all_.end(), [](const Measurement& a, const Measurement& b) {
+    const auto least =
+        std::min_element(all_.begin(), all_.end(), [](const Measurement& a, const Measurement& b) {
             return std::pair(a.holds(), a.margin()) < std::pair(b.holds(), b.margin());
         });
     return least == all_.end() ? nullptr : &*least;
@@ -33,16 +33,16 @@ const Measurement* Findings::decisive() const
 
 bool Findings::hold() const
 {
-    return !all_.empty()
-        && std::all_of(
-            all_.begin(), all_.end(), [](const Measurement& one) { return one.holds(); });
+    return !all_.empty() && std::all_of(all_.begin(), all_.end(), [](const Measurement& one) {
+        return one.holds();
+    });
 }
 
 std::vector<Case> all_cases()
 {
     std::vector<Case> cases;
-    for (const std::span<const Case> group : all_groups())
-        cases.insert(cases.end(), group.begin(), group.end());
+    for (const Group& group : all_groups())
+        cases.insert(cases.end(), group.cases.begin(), group.cases.end());
     return cases;
 }
 

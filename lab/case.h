@@ -1,8 +1,7 @@
-// A hard case of the numerical laboratory: an input that breaks renderers, what ours does with it, and the bound that
-// this must keep.
+// A hard case of the numerical laboratory: an input that breaks renderers, what ours does with it,
+// and the bound that this must keep.
 #pragma once
 
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>

@@ -1,16 +1,22 @@
-// Groups of cases, one file each.
+// Groups of cases with the guards that keep them, one file cases_*.cpp each.
 #pragma once
 
 #include "lab/case.h"
+#include "lab/guards.h"
 
 namespace farlight::lab {
 
-std::span<const Case> accumulation_cases();
-std::span<const Case> display_cases();
+struct Group {
+    std::span<const Case> cases;
+    std::span<const Guard> guards;
+};
 
-inline std::vector<std::span<const Case>> all_groups()
+Group accumulation_group();
+Group display_group();
+
+inline std::vector<Group> all_groups()
 {
-    return {accumulation_cases(), display_cases()};
+    return {accumulation_group(), display_group()};
 }
 
 }  // namespace farlight::lab

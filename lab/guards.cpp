@@ -1,23 +1,19 @@
 // See the header.
 #include "lab/guards.h"
 
+#include "lab/groups.h"
 #include "server/gl/shader_source.h"
 
 #include <stdexcept>
 
 namespace farlight::lab {
-namespace {
 
-constexpr Guard kGuards[] = {
-    {"running_mean", "49 51", "accumulate/accumulate.comp", "mean = old + (radiance - old) / count;",
-        "mean = (old * (count - 1.0) + radiance) / count;"},
-};
-
-}  // namespace
-
-std::span<const Guard> all_guards()
+std::vector<Guard> all_guards()
 {
-    return kGuards;
+    std::vector<Guard> guards;
+    for (const Group& group : all_groups())
+        guards.insert(guards.end(), group.guards.begin(), group.guards.end());
+    return guards;
 }
 
 void take_out(const Guard& guard)
@@ -26,8 +22,8 @@ void take_out(const Guard& guard)
     const std::size_t at =
         file == shader_files().end() ? std::string::npos : file->second.find(guard.text);
     if (at == std::string::npos || file->second.find(guard.text, at + 1) != std::string::npos)
-        throw std::runtime_error("guard '" + std::string(guard.name) + "': its text is not in shaders/"
-            + std::string(guard.file) + " exactly once");
+        throw std::runtime_error("guard '" + std::string(guard.name)
+            + "': its text is not in shaders/" + std::string(guard.file) + " exactly once");
     file->second.replace(at, guard.text.size(), guard.instead);
 }
 

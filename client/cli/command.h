@@ -27,6 +27,7 @@ Command add_script(CLI::App& farlight);
 Command add_bench(CLI::App& farlight);
 Command add_compare(CLI::App& farlight);
 Command add_accuracy(CLI::App& farlight);
+Command add_hard_cases(CLI::App& farlight);
 
 /// A line for people, on stderr: stdout is for results.
 void say(const std::string& line);

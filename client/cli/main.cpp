@@ -39,7 +39,7 @@ int run(int argc, char** argv)
     app.set_version_flag("--version", "farlight " FARLIGHT_VERSION);
     app.require_subcommand(1);
     const std::vector<Command> commands{add_info(app), add_record(app), add_script(app),
-        add_bench(app), add_compare(app), add_accuracy(app)};
+        add_bench(app), add_compare(app), add_accuracy(app), add_hard_cases(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& problem) {
