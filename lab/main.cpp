@@ -10,6 +10,8 @@
 #include <chrono>
 #include <fstream>
 #include <iostream>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 
 namespace farlight::lab {
 namespace {
@@ -123,6 +125,8 @@ int run(const Options& options)
     const std::vector<Case> cases = chosen_cases(options);
     if (!options.without.empty())
         take_out_by_name(options.without);
+    spdlog::set_default_logger(spdlog::stderr_color_st("farlight-hard-cases"));
+    spdlog::set_level(spdlog::level::err);
     const Context context(options.device);
     Sheet sheet;
     sheet.device = context.device().name + ", " + context.device().version;

@@ -26,6 +26,17 @@ struct Interface {
 // the interface bends nothing and is treated as smooth.
 const float REFRACTION_RESOLUTION = 3.8146973e-6;
 
+// Reflectance at a facet that is met at cosine `cos_h`.
+vec3 reflectance(Interface s, float cos_h)
+{
+    const float eta = s.thin ? max(s.eta, 1.0 / s.eta) : s.eta;  // a wall is met from outside on either side
+    const float f = fresnel_dielectric(cos_h, eta);
+    precise const vec3 weighted = clamp(s.base + s.slope * f, 0.0, 1.0);
+    if (s.thin)
+        return slab_reflectance(weighted);
+    return refracted_cosine(cos_h, eta) > 0.0 ? weighted : vec3(1.0);
+}
+
 // `part` of the surface is this interface.
 Interface make_interface(ShadedMaterial m, float cos_o, float eta, float part)
 {
@@ -42,7 +53,7 @@ Interface make_interface(ShadedMaterial m, float cos_o, float eta, float part)
     s.base = at_normal - s.slope * f0;
     s.tint = m.albedo;
     s.weight = part;
-    s.albedo = part * average(max(s.tint, vec3(f0)));
+    s.albedo = part * average(s.tint + (1.0 - s.tint) * reflectance(s, cos_o));
 #ifdef FX_ROUGH_DIELECTRIC
     const float bent = dielectric_albedo_at(cos_o, s.alpha, eta);
     const float unbent = reflection_albedo_at(cos_o, s.alpha).x;
@@ -50,17 +61,6 @@ Interface make_interface(ShadedMaterial m, float cos_o, float eta, float part)
     s.weight = s.alpha > 0.0 ? scaled : part;
 #endif
     return s;
-}
-
-// Reflectance at a facet that is met at cosine `cos_h`.
-vec3 reflectance(Interface s, float cos_h)
-{
-    const float eta = s.thin ? max(s.eta, 1.0 / s.eta) : s.eta;  // a wall is met from outside on either side
-    const float f = fresnel_dielectric(cos_h, eta);
-    precise const vec3 weighted = clamp(s.base + s.slope * f, 0.0, 1.0);
-    if (s.thin)
-        return slab_reflectance(weighted);
-    return refracted_cosine(cos_h, eta) > 0.0 ? weighted : vec3(1.0);
 }
 
 // Probability of reflecting rather than transmitting where a facet reflects `r`.

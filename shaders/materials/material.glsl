@@ -77,13 +77,6 @@ void apply_maps(inout MaterialDraft d, Surface s, TextureLookup lookup, vec2 nor
 }
 #endif
 
-// GGX alpha, 0 for a mirror. What a texture says is never that sharp.
-float alpha_of(float roughness, bool textured)
-{
-    const float sharp = textured ? GGX_ALPHA_MIN : 0.0;
-    return roughness > MIRROR_ROUGHNESS ? roughness * roughness : sharp;
-}
-
 MaterialDraft drafted(Surface s, TextureLookup lookup)
 {
     const vec4 albedo = material_texel(s.material, MATERIAL_ALBEDO);

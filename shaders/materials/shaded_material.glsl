@@ -37,3 +37,10 @@ bool is_transparent(ShadedMaterial m)
     return false;
 #endif
 }
+
+// GGX alpha, 0 for a mirror. What a texture says is never that sharp.
+float alpha_of(float roughness, bool textured)
+{
+    const float sharp = textured ? GGX_ALPHA_MIN : 0.0;
+    return roughness > MIRROR_ROUGHNESS ? roughness * roughness : sharp;
+}
