@@ -14,11 +14,12 @@ struct Group {
 Group accumulation_group();
 Group bsdf_group();
 Group display_group();
+Group laws_group();
 Group random_group();
 
 inline std::vector<Group> all_groups()
 {
-    return {accumulation_group(), bsdf_group(), display_group(), random_group()};
+    return {accumulation_group(), bsdf_group(), display_group(), laws_group(), random_group()};
 }
 
 }  // namespace farlight::lab

@@ -102,6 +102,22 @@ void run_mutations(const Options& options, std::span<const Case> cases, Sheet& s
         }
 }
 
+/// Cases that no guard of ours is known to keep: nothing proves that they can fail.
+std::vector<std::string> unproven(std::span<const Case> cases)
+{
+    std::vector<std::string> ids;
+    for (const Case& one : cases) {
+        bool kept = false;
+        for (const Guard& guard : all_guards()) {
+            const std::vector<std::string> by = cases_kept_by(guard);
+            kept = kept || std::find(by.begin(), by.end(), one.id) != by.end();
+        }
+        if (!kept)
+            ids.emplace_back(one.id);
+    }
+    return ids;
+}
+
 std::string summary_of(const Sheet& sheet)
 {
     const auto count = [&](std::string_view verdict) {
@@ -139,8 +155,11 @@ int run(const Options& options)
         sheet.cases.push_back(judge(one, options.long_forms ? Length::kLong : Length::kShort));
         lines << line_of(sheet.cases.back()) << std::endl;
     }
-    if (options.mutations)
+    if (options.mutations) {
         run_mutations(options, cases, sheet);
+        for (const std::string& id : unproven(cases))
+            lines << "no guard is known that keeps case " << id << "\n";
+    }
     lines << summary_of(sheet) << "\n";
     if (options.json)
         std::cout << to_json(sheet).dump(2) << "\n";
