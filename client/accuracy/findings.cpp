@@ -163,7 +163,8 @@ private:
             json row{{"from", halving.from + 1}, {"label", from["label"]}, {"ms", from["ms"]},
                 {"relmse", from["relmse"]}};
             if (fit)
-                row["averaging_ms"] = 2 * fit->rate / from["relmse"].get<double>();
+                row["averaging_ms"] = std::max(2 * fit->rate / from["relmse"].get<double>(),
+                    ms_of(measured_.averaging_times));  // one frame at least
             if (halving.to) {
                 const json& to = points_[frontier_[*halving.to]];
                 row["to"] = *halving.to + 1;

@@ -214,14 +214,19 @@ std::string word_for(const std::string& key)
 
 std::string changes_between(const Settings& from, const Settings& to)
 {
+    const auto filters = [](const Settings& settings) {
+        const auto denoiser = settings.find("denoiser");
+        return denoiser == settings.end() || denoiser->second != kRaw;
+    };
     std::string text;
     for (const auto& [key, value] : to) {
+        const bool of_filter = key == "atrous_iterations" || key == "history_max";
         const auto before = from.find(key);
-        if (before != from.end() && before->second == value)
+        if ((before != from.end() && before->second == value) || (of_filter && !filters(to)))
             continue;
+        const bool had_none = before == from.end() || (of_filter && !filters(from));
         text += (text.empty() ? "" : ", ") + word_for(key) + " "
-            + (before == from.end() ? "" : number_text(before->second) + " \u2192 ")
-            + number_text(value);
+            + (had_none ? "" : number_text(before->second) + " \u2192 ") + number_text(value);
     }
     return text;
 }

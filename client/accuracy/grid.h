@@ -38,6 +38,7 @@ struct Grid {
 Grid make_grid(const nlohmann::json& described, GridSize size);
 
 /// "denoiser none → svgf, samples 1 → 4": what turns one point into the other; "" for the same.
+/// What only filters know is told of no raw point.
 std::string changes_between(const Settings& from, const Settings& to);
 
 /// "samples" for samples_per_pixel: a setting's word in labels.

@@ -46,7 +46,7 @@ function cellsOf(header, passes, roundTrip) {
     return {
         predicted: [errorNumber(header.predicted_error), intervalOf("predicted") + (whole ? "" : ", before it is enlarged")],
         noise: [errorNumber(header.noise_error), "the rest is blur"],
-        measured: [errorNumber(header.measured_error), header.reference_samples ? `${intervalOf("measured", "", ", ")}against ${header.reference_samples} samples` : "while still"],
+        measured: [errorNumber(header.measured_error), header.reference_samples ? `${intervalOf("measured", "", ", ")}against ${header.reference_samples} samples` : header.flags.still ? "after more samples" : "while still"],
         raw: [errorNumber(header.raw_error), "unfiltered"],
         effective: [Number.isFinite(header.effective_samples) ? errorNumber(header.effective_samples, 3) : "–", "of a plain mean"],
         samples: [header.samples_per_pixel || "–", `a frame, ${header.accumulated_samples} in all`],

@@ -107,9 +107,11 @@ void ErrorRecord::predict(const Frame& frame)
     if (!frame.second_of_pair) {
         noise_ = mean_of_tiles(frame.predicted, frame.extent, 0).value;
         raw_ = mean_of_tiles(frame.predicted, frame.extent, 1).value;
+        if (!std::isfinite(noise_))  // nothing counts: what was known is of another picture
+            predicted_pairs_ = 0;
         return;
     }
-    if (!product.known() || !std::isfinite(product.deviation))
+    if (!product.known() || !std::isfinite(product.deviation) || !std::isfinite(noise_))
         return;
     // A half picture has half the samples, so twice the noise of the whole one.
     const double whole = product.value - noise_;

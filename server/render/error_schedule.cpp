@@ -12,6 +12,9 @@ namespace {
 constexpr std::uint32_t kFramesThatAllPredict = 16;
 /// Frames between two looks at the noise of a mean without a filter.
 constexpr int kPlainStretch = 8;
+/// The first older mean is taken after at most so many frames, so that a picture with mirrors,
+/// whose stretch is 135 frames, is measured before it is final after 256 samples.
+constexpr int kFirstMean = 64;
 
 /// Frames between two measurements of a resting picture: those within which the denoiser forgets,
 /// a mirror's light last (svgf/temporal.comp).
@@ -53,14 +56,17 @@ void ErrorSchedule::predict(const FramePlan& plan, ErrorLooks& looks)
 }
 
 /// At the end of every stretch of frames that the denoiser forgets within, its picture is compared
-/// with the mean as it was when the stretch began.
+/// with the mean as it was when the stretch began. What comes before the first stretch may be
+/// shorter.
 void ErrorSchedule::measure(const FramePlan& plan, bool specular, ErrorLooks& looks)
 {
     if (!plan.settings.error_estimate || !is_averaged(plan)) {
         reference_frames_ = 0;
         return;
     }
-    const bool at_end = plan.mean_frames % stretch_of(plan, specular) == 0;
+    const int stretch = stretch_of(plan, specular);
+    const int since_first = plan.mean_frames - std::min(stretch, kFirstMean);
+    const bool at_end = since_first >= 0 && since_first % stretch == 0;
     looks.measures = at_end && plan.mean_frames > 1;
     if (!is_denoised(plan))
         return;

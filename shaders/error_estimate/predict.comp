@@ -10,7 +10,7 @@
 //        in_picture                                                     rgba32f  the filtered picture
 //        prev_difference                                                rgba32f  x_1 - B_1, in the second of a pair
 //        in_motion, and the G-buffer textures of composite/compose.glsl
-//   out  out_difference                                                 rgba32f  x_1 - B_1, relative to the picture
+//   out  out_difference                                                 rgba32f  x_1 - B_1, relative to the picture; a: 1 if the pixel counts
 //        tile_block: in the first of a pair sums of relative square errors over the pixels that count, of the filtered
 //        picture's noise (x) and of this frame's samples (y), and how many pixels these are (w); in the second the
 //        products (z), and how many (w)
@@ -18,6 +18,9 @@
 #include "error_estimate/noise_of_picture.glsl"
 #include "error_estimate/counts.glsl"
 #include "error_estimate/tiles.glsl"
+#ifdef FX_FOG
+#include "svgf/fog_motion.glsl"
+#endif
 
 uniform sampler2D in_picture;
 uniform sampler2D noisy_direct;
@@ -66,24 +69,41 @@ Differences differences_at(ivec2 px)
 vec4 first_of_pair(ivec2 px)
 {
     const Differences d = differences_at(px);
-    imageStore(out_difference, px, vec4(d.half_picture, 0.0));
+    // Whether nothing is 0 or -0 would depend on which effects are compiled in.
+    imageStore(out_difference, px, vec4(mix(d.half_picture, vec3(0.0), equal(d.half_picture, vec3(0.0))), 1.0));
     return vec4(dot(d.noise, d.noise) / 3.0, dot(d.raw, d.raw) / 3.0, 0.0, 1.0);
+}
+
+// Where the pixel was: xy: previous minus current pixel [px]; w: 1 if it is known.
+vec4 motion_of_light(ivec2 px)
+{
+    const vec4 motion = texelFetch(in_motion, px, 0);
+#ifdef FX_FOG
+    if (counts(px) && texelFetch(in_albedo, px, 0).a == 0.0)  // nothing but fog
+        return fog_motion(px, texelFetch(in_fog_way, px, 0).x, fog_sigma_t);
+#endif
+    return motion;
 }
 
 vec4 in_second_of_pair(ivec2 px)
 {
-    const vec4 motion = texelFetch(in_motion, px, 0);
+    const vec4 motion = motion_of_light(px);
     const ivec2 before = ivec2(floor(vec2(px) + 0.5 + motion.xy));
     // Of the other colour, the older sample would be in this one's half picture.
     if (!(motion.w > 0.0) || !inside_prev_frame(before) || half_sign(before) != half_sign(px))
         return vec4(0.0);
-    const vec3 half_picture = differences_at(px).half_picture;
-    return vec4(0.0, 0.0, dot(half_picture, texelFetch(prev_difference, before, 0).rgb) / 3.0, 1.0);
+    const vec4 earlier = texelFetch(prev_difference, before, 0);
+    if (earlier.a == 0.0)
+        return vec4(0.0);
+    return vec4(0.0, 0.0, dot(differences_at(px).half_picture, earlier.rgb) / 3.0, 1.0);
 }
 
 vec4 sums_at(ivec2 px)
 {
     if (second_of_pair != 0)
         return in_second_of_pair(px);
-    return counts(px) ? first_of_pair(px) : vec4(0.0);
+    if (counts(px))
+        return first_of_pair(px);
+    imageStore(out_difference, px, vec4(0.0));
+    return vec4(0.0);
 }

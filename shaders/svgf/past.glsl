@@ -1,5 +1,6 @@
 // Where a pixel's light was last frame, by kind of signal (svgf/signal.glsl names them), and whether it is the same.
 #pragma once
+#include "svgf/fog_motion.glsl"
 #include "svgf/surface.glsl"
 
 // What has to be found again, and around which pixel of last frame.
@@ -25,17 +26,13 @@ uniform vec3 fog_sigma_t;
 
 float transmittance(float way) { return luminance(exp(-fog_sigma_t * way)); }
 
-// Fog has no surface: what is one mean free path ahead, or on the surface before that, stands for the light.
 Past past_of(ivec2 px)
 {
     const float way = texelFetch(in_fog_way, px, 0).x;
-    const vec3 direction = normalize(camera_direction(frame.camera, vec2(px) + 0.5));
-    const vec3 position = frame.camera.position + direction * min(way, 1.0 / max_component(fog_sigma_t));
-    const vec3 now = camera_project(frame.camera, position);
-    const vec3 before = camera_project(frame.prev_camera, position);
+    const vec4 motion = fog_motion(px, way, fog_sigma_t);
     Past p;
-    p.exists = before.z > 0.0;
-    p.pixel = vec2(px) + 0.5 + (before.xy - now.xy);
+    p.exists = motion.w > 0.0;
+    p.pixel = vec2(px) + 0.5 + motion.xy;
     p.key = transmittance(way);
     p.tolerance = 0.1;  // of 1: twice what the filter lets through, because fog changes slowly
     return p;

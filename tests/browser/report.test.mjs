@@ -94,3 +94,32 @@ test("a phone's width needs no sideways scrolling", async () => {
     await screenshot(page, "report_phone");
     assert.deepEqual(page.complaints, []);
 });
+
+test("a plot is drawn wherever its range begins", async () => {
+    const before = await page.locator(".plot").count();
+    await page.evaluate(() => {
+        const look = { shape: "circle", color: "#000000", size: 4 };
+        for (const lower of [1.04, 9.4, 9.5, 9.7, 9.99])
+            for (const decade of [1e-4, 1])
+                logPlot(document.body, { title: "any", x: "x", y: "y", markers: [1.6, 16].map((at) => ({ x: lower * decade * at, y: lower * decade * at, look, label: "", tip: "" })) });
+    });
+    await page.waitForTimeout(300);
+    assert.equal(await page.locator(".plot").count(), before + 10);
+    assert.deepEqual(page.complaints, []);
+});
+
+test("where no frame has an error that shows, the page says so", async () => {
+    const nothing = {
+        ...report, prices: [], fits: [], techniques: [], slope: null, flip_frontier: [], frontier: { points: [] }, averaging: { ...report.averaging, rate: undefined },
+        points: report.points.map(({ frontier, ...point }) => ({ ...point, relmse: 0, relmse_lower: 0, relmse_upper: 0, flip: 0 })),
+    };
+    const html = readFileSync(`${FOLDER}/accuracy.html`, "utf8");
+    const gallery = JSON.parse(await page.locator("#data").textContent()).gallery;
+    const bare = await browser.open("about:blank");
+    await bare.setContent(html.replace(/(<script id="data"[^>]*>)[^]*?(<\/script>)/, (_, open, close) => open + JSON.stringify({ ...nothing, gallery }) + close));
+    await until(bare, () => document.body.dataset.ready === "true");
+    assert.match(await bare.locator(".answer").innerText(), /No frame has an error/);
+    assert.match(await bare.locator("#method").innerText(), /too little error to say how it falls/);
+    assert.deepEqual(bare.complaints, []);
+    await bare.close();
+});

@@ -122,6 +122,14 @@ TEST(Findings, PricesNameTheSettingsThatChange)
     EXPECT_FALSE(prices[3].contains("extra_ms"));
 }
 
+TEST(Findings, AveragingTakesAFrameAtLeast)
+{
+    Measurements measured = invented();
+    measured.points.push_back(point("none", 1, 0.5, 5));
+    measured.points.back().point.settings["resolution_scale"] = 0.5;
+    EXPECT_EQ(findings_of(measured)["prices"][0]["averaging_ms"], 1.0);  // 0.04 by the rate alone
+}
+
 TEST(Findings, FitsCrossWhereAveragingIsBetter)
 {
     const json findings = findings_of(invented());

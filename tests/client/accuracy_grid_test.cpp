@@ -96,10 +96,15 @@ TEST(SweepGrid, ASettingThatTheServerLacksIsNotSwept)
 
 TEST(SweepGrid, ChangesAreNamed)
 {
-    const Settings from{{"denoiser", "none"}, {"samples_per_pixel", 1}, {"max_depth", 4}};
-    const Settings to{{"denoiser", "svgf"}, {"samples_per_pixel", 4}, {"max_depth", 4}};
+    Settings from{{"denoiser", "none"}, {"samples_per_pixel", 1}, {"max_depth", 4}};
+    Settings to{{"denoiser", "svgf"}, {"samples_per_pixel", 4}, {"max_depth", 4}};
     EXPECT_EQ(changes_between(from, to), "denoiser none \u2192 svgf, samples 1 \u2192 4");
     EXPECT_EQ(changes_between(from, from), "");
+    from["atrous_iterations"] = 5;
+    to["atrous_iterations"] = 0;
+    EXPECT_EQ(
+        changes_between(from, to), "a-trous 0, denoiser none \u2192 svgf, samples 1 \u2192 4");
+    EXPECT_EQ(changes_between(to, from), "denoiser svgf \u2192 none, samples 4 \u2192 1");
 }
 
 }  // namespace

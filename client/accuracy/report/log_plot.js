@@ -8,7 +8,10 @@ function logRange(values) {
     const usable = values.filter((value) => value > 0 && Number.isFinite(value));
     if (!usable.length)
         return [0.1, 10];
-    return [Math.min(...usable) / 1.6, Math.max(...usable) * 1.6];
+    // From 9.5 to 10 times a power of ten uPlot's ticks never end: their first step rounds to 11 times it.
+    const lower = Math.min(...usable) / 1.6;
+    const ninth = 9 * 10 ** Math.floor(Math.log10(lower));
+    return [Math.min(lower, ninth), Math.max(...usable) * 1.6];
 }
 
 function plotSize(host) {

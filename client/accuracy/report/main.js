@@ -29,7 +29,8 @@ function shortAnswer(report) {
         sentences.push(`The cheapest frame, ${first.label}, takes ${milliseconds(first.ms)} at relMSE ${number(first.relmse)}.`);
         sentences.push(first.to
             ? `To halve its error costs ${milliseconds(first.extra_ms)} more, by ${first.by}.` : "Nothing in this sweep halves its error.");
-    }
+    } else
+        sentences.push("No frame has an error that can be told from the reference's own noise, so nothing here has a price.");
     for (const fit of report.fits.filter(({ crossing_ms }) => crossing_ms))
         sentences.push(`After ${milliseconds(fit.crossing_ms)} spent on one picture (t*), plain averaging has less error than ${fit.denoiser} with the same time in one frame.`);
     return element("p", { class: "answer" }, sentences.join(" "));
@@ -104,7 +105,8 @@ function methodSection(report) {
             : "The server does not tell the time of whole frames, so pass times could not be checked against them.",
         "Intervals of errors are 95 % studentised bootstrap over the seeds. Bias\u00b2 is the mean product of the deviations of different seeds, noise is the rest; what the reference's own noise adds is taken off both.",
         `Fit of each denoiser over samples: error(t) = b\u00b2 + c / t, where b\u00b2 is the bias that the seeds show at its most samples, or is fitted too where they show none; averaged frames: error(t) = ${number(averaging.rate)} ms / t. They cross at t* = (c_averaged \u2212 c) / b\u00b2.`,
-        `Raw samples: error falls with samples to the power ${number(slope.mse)} (MSE) and ${number(slope.relmse)} (relMSE); \u22121 is what theory asks for.`,
+        slope ? `Raw samples: error falls with samples to the power ${number(slope.mse)} (MSE) and ${number(slope.relmse)} (relMSE); \u22121 is what theory asks for.`
+            : "Raw samples have too little error to say how it falls with samples.",
         "All pictures look through pixel middles, as moving ones do, the reference too. Frames smaller than the picture are enlarged bilinearly before they are compared.",
     ];
     section("method", "How this was measured", element("ul", {}, ...items.map((item) => element("li", {}, item))));
