@@ -16,10 +16,12 @@ Group bsdf_group();
 Group display_group();
 Group laws_group();
 Group random_group();
+Group transport_group();
 
 inline std::vector<Group> all_groups()
 {
-    return {accumulation_group(), bsdf_group(), display_group(), laws_group(), random_group()};
+    return {accumulation_group(), bsdf_group(), display_group(), laws_group(), random_group(),
+        transport_group()};
 }
 
 }  // namespace farlight::lab

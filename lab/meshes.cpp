@@ -26,6 +26,20 @@ void add_quad(Scene& scene, const char* name, std::uint32_t material, const Quad
     scene.objects.push_back({name, material, quad});
 }
 
+/// Six squares of the first material around [-2, 2]^3 that face inwards, and a camera inside.
+void add_box(Scene& scene)
+{
+    add_quad(scene, "floor", 0, {{-2, -2, -2}, {0, 0, 4}, {4, 0, 0}});
+    add_quad(scene, "ceiling", 0, {{-2, 2, -2}, {4, 0, 0}, {0, 0, 4}});
+    add_quad(scene, "left", 0, {{-2, -2, -2}, {0, 4, 0}, {0, 0, 4}});
+    add_quad(scene, "right", 0, {{2, -2, -2}, {0, 0, 4}, {0, 4, 0}});
+    add_quad(scene, "back", 0, {{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}});
+    add_quad(scene, "front", 0, {{-2, -2, 2}, {0, 4, 0}, {4, 0, 0}});
+    scene.camera.position = {0, 0.3, 1.95};
+    scene.camera.target = {0, 0, 0};
+    scene.camera.vertical_fov_degrees = 70;
+}
+
 }  // namespace
 
 Mesh bumpy_sphere(int around, int along, const glm::vec3& center)
@@ -83,20 +97,20 @@ Scene scene_of(Mesh mesh)
     return scene;
 }
 
+Scene box_of(const Material& material)
+{
+    Scene scene;
+    scene.materials.push_back(material);
+    add_box(scene);
+    return scene;
+}
+
 Scene room_with(Mesh mesh)
 {
     Scene scene = scene_of(std::move(mesh));
     scene.materials.push_back({"light", glm::vec3(0), glm::vec3(10)});
-    add_quad(scene, "floor", 0, {{-2, -2, -2}, {0, 0, 4}, {4, 0, 0}});
-    add_quad(scene, "ceiling", 0, {{-2, 2, -2}, {4, 0, 0}, {0, 0, 4}});
-    add_quad(scene, "left", 0, {{-2, -2, -2}, {0, 4, 0}, {0, 0, 4}});
-    add_quad(scene, "right", 0, {{2, -2, -2}, {0, 0, 4}, {0, 4, 0}});
-    add_quad(scene, "back", 0, {{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}});
-    add_quad(scene, "front", 0, {{-2, -2, 2}, {0, 4, 0}, {4, 0, 0}});
+    add_box(scene);
     add_quad(scene, "light", 1, {{-0.5, 1.99, -0.5}, {1, 0, 0}, {0, 0, 1}});
-    scene.camera.position = {0, 0.3, 1.95};
-    scene.camera.target = {0, 0, 0};
-    scene.camera.vertical_fov_degrees = 70;
     return scene;
 }
 

@@ -17,6 +17,9 @@ Mesh triangle_soup(std::size_t count, unsigned seed);
 /// A scene of one white diffuse object without light.
 Scene scene_of(Mesh mesh);
 
+/// A closed box of side 4 of one material, seen from inside.
+Scene box_of(const Material& material);
+
 /// The mesh inside a closed box of side 4 with a light at its ceiling: what rays of a path tracer
 /// meet.
 Scene room_with(Mesh mesh);
