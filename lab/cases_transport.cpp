@@ -212,7 +212,7 @@ void lamp_from_behind(Findings& findings, Length /*length*/)
     const Image image = rendered(scene, averaged(16, true, 2));
     findings.none("light on a floor behind a one-sided lamp", largest_off(image, 0));
     // Edge-on: the lamp's plane holds the floor.
-    std::get<Quad>(scene.objects[1].shape) = {{-0.5, 0, -4.5}, {0, 0, 1}, {1, 0, 0}};
+    std::get<Quad>(scene.objects[1].shape) = {{-0.5, 0, -4.5}, {1, 0, 0}, {0, 0, 1}};
     findings.none("light on a floor that lies in the lamp's plane",
         largest_off(rendered(scene, averaged(16, true, 2)), 0));
 }
@@ -265,6 +265,23 @@ constexpr Case kTransportCases[] = {
 };
 
 constexpr Guard kTransportGuards[] = {
+    {"offset_leaves", "27 33", "geometry/surface.glsl",
+        "position + geometric_normal * (dot(direction, geometric_normal) >= 0.0 ? offset : "
+        "-offset);",
+        "position;"},
+    {"offset_on_the_side_left", "33", "geometry/surface.glsl",
+        "(dot(direction, geometric_normal) >= 0.0 ? offset : -offset)", "offset"},
+    {"longest_path", "26 26b", "path_trace/path_trace.comp", "bool alive = segment <= max_depth;",
+        "bool alive = segment < max_depth;"},
+    {"mis_weight", "26b", "path_trace/direct.glsl",
+        "const float weight = light.delta ? 1.0 : power_heuristic(light.pdf, value.pdf);",
+        "const float weight = 1.0;"},
+    {"one_sided_lamps", "37", "lights/area.glsl",
+        "light.emits_both_sides || dot(normal, way) < 0.0 ? light.radiance : vec3(0.0)",
+        "light.radiance"},
+    {"roulette_weight", "41", "path_trace/path_trace.comp", "next /= survive;", ""},
+    {"fog_ahead", "45", "media/fog.glsl", "clamp(middle - half_chord, 0.0, t_max)",
+        "middle - half_chord"},
     {"cone_without_cancellation", "40", "lights/area.glsl",
         "return sin2 / (1.0 + sqrt(max(0.0, 1.0 - sin2)));",
         "return 1.0 - sqrt(max(0.0, 1.0 - sin2));"},

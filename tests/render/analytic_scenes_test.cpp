@@ -20,88 +20,6 @@ Image accumulate(const DeviceScene& scene, RenderRequest request, int frames)
     return std::move(frame.image);
 }
 
-Scene furnace(float albedo)
-{
-    Scene scene = load_scene(std::string(FARLIGHT_SOURCE_DIR) + "/scenes/furnace.json");
-    for (Material& material : scene.materials) {
-        material.albedo = glm::vec3(albedo);
-        material.emission = glm::vec3(1);
-    }
-    return scene;
-}
-
-// Inside a closed box that emits radiance 1 and reflects a fraction rho, a path of at most n
-// segments sees
-//     L = 1 + rho + rho^2 + ... + rho^(n-1) = (1 - rho^n) / (1 - rho).
-struct FurnaceCase {
-    const char* name;
-    float albedo;
-    int max_depth;
-
-    friend void PrintTo(const FurnaceCase& c, std::ostream* out) { *out << c.name; }
-};
-
-class FurnaceTest : public GlTest, public testing::WithParamInterface<FurnaceCase> {
-protected:
-    static double expected()
-    {
-        const auto& [name, albedo, max_depth] = GetParam();
-        return (1 - std::pow(albedo, max_depth)) / (1 - albedo);
-    }
-    static RenderSettings settings()
-    {
-        RenderSettings s;
-        s.max_depth = GetParam().max_depth;
-        s.roulette_depth = 64;
-        s.denoiser = Denoiser::kOff;
-        return s;
-    }
-};
-
-/// Every BSDF sample meets the same radiance: no variance at all, so every pixel is exact.
-TEST_P(FurnaceTest, WithoutLightSamplingEveryPixelIsExact)
-{
-    const DeviceScene scene(furnace(GetParam().albedo));
-    RenderSettings s = settings();
-    s.light_sampling = false;
-    View view(scene.shared);
-    const RenderedFrame frame = view.render(linear_request(scene.scene, {32, 24}, s));
-    EXPECT_EQ(frame.nonfinite_count, 0U);
-    for (int y = 0; y < 24; ++y)
-        for (int x = 0; x < 32; ++x)
-            for (int c = 0; c < 3; ++c)
-                ASSERT_NEAR(pixel(frame.image, x, y)[c], expected(), 1e-5) << x << "," << y;
-}
-
-TEST_P(FurnaceTest, WithLightSamplingTheMeanIsExpected)
-{
-    const DeviceScene scene(furnace(GetParam().albedo));
-    RenderSettings s = settings();
-    s.samples_per_pixel = 64;
-    const Estimate estimate =
-        mean_of(accumulate(scene, linear_request(scene.scene, {64, 48}, s), 4));
-    EXPECT_NEAR(estimate.mean, expected(), 5 * estimate.standard_error + 1e-5);
-    EXPECT_LT(estimate.standard_error, 0.01 * expected());
-}
-
-/// Ending paths by chance changes nothing in the mean.
-TEST_P(FurnaceTest, RussianRouletteIsUnbiased)
-{
-    const DeviceScene scene(furnace(GetParam().albedo));
-    RenderSettings s = settings();
-    s.light_sampling = false;
-    s.roulette_depth = 2;
-    s.samples_per_pixel = 64;
-    const Estimate estimate =
-        mean_of(accumulate(scene, linear_request(scene.scene, {64, 48}, s), 4));
-    EXPECT_NEAR(estimate.mean, expected(), 5 * estimate.standard_error + 1e-5);
-}
-
-INSTANTIATE_TEST_SUITE_P(AnalyticScenes, FurnaceTest,
-    testing::Values(FurnaceCase{"EmitterOnly", 0.5F, 1}, FurnaceCase{"OneBounce", 0.5F, 2},
-        FurnaceCase{"ThreeBounces", 0.5F, 4}, FurnaceCase{"Deep", 0.8F, 9}),
-    [](const auto& test) { return test.param.name; });
-
 // A lamp two units above a floor: light sampling and chance must agree however large the floor is
 // and wherever it stands, although the floor's rays start off it by an error that grows with its
 // coordinates.
@@ -151,26 +69,6 @@ INSTANTIATE_TEST_SUITE_P(AnalyticScenes, LampTest,
         LampCase{"VeryFarAway", 3, 1e4, false}, LampCase{"SphereOverHugeFloor", 1e4, 0, true},
         LampCase{"SphereFarAway", 3, 1e4, true}),
     [](const auto& test) { return test.param.name; });
-
-/// A white sphere that reflects everything under a uniform sky of 1 disappears: every path
-/// returns 1.
-TEST_F(GlTest, WhiteSphereUnderAWhiteSkyDisappears)
-{
-    Scene scene;
-    scene.materials.push_back({"white", glm::vec3(1)});
-    scene.objects.push_back({"ball", 0, Sphere{{0, 0, 0}, 1}});
-    scene.background = glm::vec3(1);
-    scene.camera.position = {0, 0, 3};
-    scene.camera.target = {0, 0, 0};
-    const DeviceScene on_device(scene);
-    View view(on_device.shared);
-    RenderSettings s;
-    s.denoiser = Denoiser::kOff;
-    const RenderedFrame frame = view.render(linear_request(on_device.scene, {64, 64}, s));
-    for (int y = 0; y < 64; ++y)
-        for (int x = 0; x < 64; ++x)
-            ASSERT_NEAR(pixel(frame.image, x, y).x, 1, 1e-5) << x << "," << y;
-}
 
 /// An emitter shows its radiance to its front only, unless it emits on both sides.
 TEST_F(GlTest, QuadEmitsOnTheSideItsNormalPointsTo)
