@@ -15,13 +15,14 @@ Group accumulation_group();
 Group bsdf_group();
 Group display_group();
 Group laws_group();
+Group poison_group();
 Group random_group();
 Group transport_group();
 
 inline std::vector<Group> all_groups()
 {
-    return {accumulation_group(), bsdf_group(), display_group(), laws_group(), random_group(),
-        transport_group()};
+    return {accumulation_group(), bsdf_group(), display_group(), laws_group(), poison_group(),
+        random_group(), transport_group()};
 }
 
 }  // namespace farlight::lab

@@ -55,6 +55,19 @@ void PassBench::set_pixel(const std::string& name, int x, int y, const glm::vec4
     glTextureSubImage2D(textures_.at(name)->id(), 0, x, y, 1, 1, GL_RGBA, GL_FLOAT, &value);
 }
 
+void PassBench::fill_bits(const std::string& name, GLenum format, const glm::uvec4& value)
+{
+    auto texture = std::make_unique<GpuTexture>("bench " + name, format, extent_);
+    glClearTexImage(texture->id(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, &value);
+    textures_[name] = std::move(texture);
+}
+
+void PassBench::set_bits(const std::string& name, int x, int y, const glm::uvec4& value)
+{
+    glTextureSubImage2D(
+        textures_.at(name)->id(), 0, x, y, 1, 1, GL_RGBA_INTEGER, GL_UNSIGNED_INT, &value);
+}
+
 void PassBench::swap(const std::string& a, const std::string& b)
 {
     std::swap(textures_.at(a), textures_.at(b));

@@ -24,6 +24,9 @@ public:
     /// A texture filled with `value`, as the shader's variable `name`.
     void fill(const std::string& name, GLenum format, const glm::vec4& value);
     void set_pixel(const std::string& name, int x, int y, const glm::vec4& value);
+    /// Likewise of whole numbers.
+    void fill_bits(const std::string& name, GLenum format, const glm::uvec4& value);
+    void set_bits(const std::string& name, int x, int y, const glm::uvec4& value);
     /// Exchanges what two variables are bound to: what was written becomes what was read.
     void swap(const std::string& a, const std::string& b);
     void constant(const std::string& name, std::variant<int, float, glm::vec3> value);

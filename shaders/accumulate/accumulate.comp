@@ -14,6 +14,7 @@
 #version 450
 #include "error_estimate/relative.glsl"
 #include "lib/frame.glsl"
+#include "lib/numbers.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -40,11 +41,15 @@ void main()
     vec3 mean = radiance;
     vec3 variance = vec3(0.0);
     float noise = 0.0;
-    if (frame_count > 1) {
-        const vec3 old = texelFetch(prev_mean, px, 0).rgb;
-        mean = old + (radiance - old) / count;
+    const vec3 old = texelFetch(prev_mean, px, 0).rgb;
+    if (frame_count > 1 && is_light(old)) {
         const vec3 old_variance = texelFetch(prev_variance, px, 0).rgb;
-        variance = old_variance + ((radiance - old) * (radiance - mean) - old_variance) / count;
+        mean = old;
+        variance = is_light(old_variance) ? old_variance : vec3(0.0);
+        if (is_light(radiance)) {  // else there is no sample, and the others stand
+            mean = old + (radiance - old) / count;
+            variance += ((radiance - old) * (radiance - mean) - variance) / count;
+        }
         // Of n - 1 degrees of freedom, and of a mean of n.
         noise = relative_variance(variance / (count - 1.0), mean);
     }

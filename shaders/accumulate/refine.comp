@@ -8,6 +8,7 @@
 // the weight b^2 / (b^2 + v / n) = n / (n + n*), where n* = v / b^2 is the count at which both are equally good.
 #version 450
 #include "lib/frame.glsl"
+#include "lib/numbers.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -24,5 +25,7 @@ void main()
         return;
     const vec3 denoised = texelFetch(in_denoised, px, 0).rgb;
     const vec3 mean = texelFetch(in_mean, px, 0).rgb;
-    imageStore(out_radiance, px, vec4(denoised + mean_weight * (mean - denoised), 1.0));
+    const vec3 mix_of_both = denoised + mean_weight * (mean - denoised);
+    const vec3 known = is_light(denoised) ? denoised : mean;
+    imageStore(out_radiance, px, vec4(is_light(denoised) && is_light(mean) ? mix_of_both : known, 1.0));
 }

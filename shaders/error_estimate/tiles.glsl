@@ -2,6 +2,7 @@
 #pragma once
 #include "error_estimate/relative.glsl"
 #include "lib/frame.glsl"
+#include "lib/numbers.glsl"
 
 const int TILE_SIZE = 8;  // [px]; server/render/error_estimate.h
 
@@ -23,7 +24,9 @@ void main()
     const ivec2 size = min(ivec2(frame.extent) - first, ivec2(TILE_SIZE));
     vec4 sum = vec4(0.0);
     for (int y = 0; y < size.y; ++y)
-        for (int x = 0; x < size.x; ++x)
-            sum += sums_at(first + ivec2(x, y));
+        for (int x = 0; x < size.x; ++x) {
+            const vec4 one = sums_at(first + ivec2(x, y));
+            sum += all_finite(one.xyz) ? one : vec4(0.0);
+        }
     tile_sums[tile_offset + tile.x + tile.y * tiles.x] = sum;
 }

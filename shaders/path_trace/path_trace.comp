@@ -21,7 +21,7 @@
 #include "lib/primary_ray.glsl"
 #include "geometry/hit_texel.glsl"
 #include "path_trace/direct.glsl"
-#include "lib/counters.glsl"
+#include "lib/unknown.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -278,20 +278,20 @@ void main()
         ++i;
     }
     const float weight = 1.0 / float(samples_per_pixel);
-    imageStore(out_direct, px, MEAN_WITH(in_direct, vec4(counted_finite(sum.direct * weight), 0.0)));
-    imageStore(out_indirect, px, MEAN_WITH(in_indirect, vec4(counted_finite(sum.indirect * weight), 0.0)));
+    imageStore(out_direct, px, MEAN_WITH(in_direct, vec4(counted_light(sum.direct * weight), 0.0)));
+    imageStore(out_indirect, px, MEAN_WITH(in_indirect, vec4(counted_light(sum.indirect * weight), 0.0)));
 #ifdef FX_SPECULAR_SIGNAL
     const vec4 reflectance = texelFetch(in_reflectance, px, 0);
     const vec3 specular = reflectance.a >= 0.0 ? sum.specular * weight / reflectance.rgb : vec3(0.0);
     // Beyond ten thousand times the view distance nothing shifts any more.
     const float distance = distance_count > 0.0 ? min(distance_sum / distance_count, 1e4 * way) : 0.0;
-    imageStore(out_specular, px, MEAN_WITH(in_specular, vec4(counted_finite(specular), distance)));
+    imageStore(out_specular, px, MEAN_WITH(in_specular, vec4(counted_light(specular), distance)));
 #ifdef CONTINUES
     shown = shown.x != 0u ? shown : texelFetch(in_shown, px, 0);
 #endif
     imageStore(out_shown, px, shown);
 #endif
 #ifdef FX_FOG
-    imageStore(out_scattered, px, MEAN_WITH(in_scattered, vec4(counted_finite(scattered * weight), 0.0)));
+    imageStore(out_scattered, px, MEAN_WITH(in_scattered, vec4(counted_light(scattered * weight), 0.0)));
 #endif
 }

@@ -103,7 +103,8 @@ float reflected_distance(ivec2 px)
 {
     float nearest = 0.0;
     for (int i = 0; i < 9; ++i) {
-        const float found = texelFetch(in_light, px + ivec2(i % 3, i / 3) - 1, 0).a;
+        const vec4 sample_there = texelFetch(in_light, px + ivec2(i % 3, i / 3) - 1, 0);
+        const float found = is_light(sample_there) ? sample_there.a : 0.0;
         nearest = found > 0.0 && (nearest == 0.0 || found < nearest) ? found : nearest;
     }
     return nearest;

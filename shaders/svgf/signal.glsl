@@ -7,6 +7,7 @@
 //   SIGNAL_SCATTERED  light scattered by fog before the first surface: what is beyond the same amount of fog shares
 //                     its light, on surfaces and sky alike.
 #pragma once
+#include "lib/unknown.glsl"
 #include "svgf/noise.glsl"
 #include "svgf/surface.glsl"
 
@@ -27,6 +28,7 @@ struct Light {
     vec4 first;
     vec4 second;
     vec2 half_difference;
+    bool known;  // else it takes part in nothing
 };
 
 Light load_light(ivec2 q)
@@ -38,11 +40,22 @@ Light load_light(ivec2 q)
     const vec4 second = vec4(0.0);
 #endif
     return Light(vec4(first.rgb, variance_in(first.a)), vec4(second.rgb, variance_in(second.a)),
-        vec2(half_difference_in(first.a), half_difference_in(second.a)));
+        vec2(half_difference_in(first.a), half_difference_in(second.a)), is_light(first) && is_light(second));
+}
+
+// The light that a pixel itself brings, nothing where it is not known.
+Light load_own_light(ivec2 px)
+{
+    const Light light = load_light(px);
+    return counted_known(light.known, abs(light.first.rgb) + abs(light.second.rgb))
+        ? light
+        : Light(vec4(0.0), vec4(0.0), vec2(0.0), false);
 }
 
 void store_light(ivec2 px, Light light)
 {
+    if (!light.known)
+        light = Light(vec4(unknown_light(), 0.0), vec4(unknown_light(), 0.0), vec2(0.0), false);
     imageStore(out_light, px, vec4(light.first.rgb, pack_noise(light.first.a, light.half_difference.x)));
 #ifdef SIGNAL_PAIR
     imageStore(out_light_2, px, vec4(light.second.rgb, pack_noise(light.second.a, light.half_difference.y)));
@@ -91,7 +104,7 @@ Guide guide_at(ivec2 q)
         unpack_octahedral(shown.y), unpackUnorm4x8(shown.z).rgb);
 }
 
-bool takes_part(Guide g) { return g.surface.depth > 0.0 && g.alpha >= 0.0; }
+bool takes_part(Guide g) { return is_depth(g.surface.depth) && g.alpha >= 0.0; }
 
 // A lobe is about alpha wide. A normal that turns by x turns what is mirrored by 2x: cos^n x is about
 // exp(-n x^2 / 2), so n = 4 / alpha^2 makes exp(-(2x)^2 / (2 alpha^2)) of it; likewise for the view's own turn from
@@ -130,7 +143,7 @@ struct Guide {
 
 Guide guide_at(ivec2 q) { return Guide(unpack_surface(imageLoad(in_surface, q))); }
 
-bool takes_part(Guide g) { return g.surface.depth > 0.0; }
+bool takes_part(Guide g) { return is_depth(g.surface.depth); }
 
 float edge_exponent(Guide p, Guide q, vec2 offset)
 {

@@ -10,10 +10,12 @@ uniform float focus_distance;  // view depth [m]
 #endif
 
 struct FilterSurface {
-    float depth;    // view depth [m], 0: a miss, which takes part in nothing
+    float depth;    // view depth [m]; a miss, which takes part in nothing: 0, and whatever else is no depth
     vec2 gradient;  // change of depth per pixel along x and y [m/px]
     vec3 normal;
 };
+
+bool is_depth(float depth) { return depth > 0.0 && depth <= 3e38; }
 
 FilterSurface unpack_surface(uvec4 texel)
 {

@@ -16,7 +16,7 @@
 #version 450
 #include "svgf/noise.glsl"
 #include "svgf/past.glsl"
-#include "lib/counters.glsl"
+#include "lib/unknown.glsl"
 
 #ifdef SIGNAL_DIFFUSE
 #define SIGNAL_PAIR
@@ -59,16 +59,22 @@ struct HistorySum {
 void add_tap(Past p, ivec2 q, float weight, inout HistorySum sum)
 {
     const float tap_length = texelFetch(prev_length, q, 0).x;
-    if (weight >= LEAST_TAP_WEIGHT && tap_length >= 1.0 && consistent(p, q)) {
-        const vec4 first = texelFetch(prev_light, q, 0);
+    const vec4 first = texelFetch(prev_light, q, 0);
+    const vec4 moments = texelFetch(prev_moments, q, 0);
+#ifdef SIGNAL_PAIR
+    const vec4 second = texelFetch(prev_light_2, q, 0);
+#else
+    const vec4 second = vec4(0.0);
+#endif
+    const bool known = is_light(first) && is_light(second) && is_light(moments);
+    if (weight >= LEAST_TAP_WEIGHT && tap_length >= 1.0 && known && consistent(p, q)) {
         sum.first += weight * first.rgb;
         sum.half_difference.x += weight * half_difference_in(first.a);
 #ifdef SIGNAL_PAIR
-        const vec4 second = texelFetch(prev_light_2, q, 0);
         sum.second += weight * second.rgb;
         sum.half_difference.y += weight * half_difference_in(second.a);
 #endif
-        sum.moments += weight * texelFetch(prev_moments, q, 0);
+        sum.moments += weight * moments;
         sum.least_length = min(sum.least_length, tap_length);
         sum.weight += weight;
     }
@@ -93,11 +99,13 @@ HistorySum reproject(Past p)
     return sum;
 }
 
-// One step of the exponential average of mean and variance.
+// One step of the exponential average of mean and variance. What differs by more than a square can hold has the largest
+// variance that there is.
 vec2 blend_moments(vec2 old, float value, float alpha)
 {
     const float delta = value - old.x;
-    return vec2(old.x + alpha * delta, (1.0 - alpha) * (old.y + alpha * delta * delta));
+    const float bounded = clamp(delta, -1e18, 1e18);
+    return vec2(old.x + alpha * delta, (1.0 - alpha) * (old.y + alpha * bounded * bounded));
 }
 
 // A mirror's light is filtered over time alone, so more of it is kept.
@@ -126,29 +134,40 @@ void main()
 #else
     vec3 second = vec3(0.0);
 #endif
+    const bool known = counted_known(is_light(first) && is_light(second), abs(first) + abs(second));
     vec4 moments = vec4(luminance(first), 0.0, luminance(second), 0.0);
-    float length = 1.0;
+    float length = known ? 1.0 : 0.0;
     // What is already known of the mean does not belong to the noise: it would pass where halves weigh unequally.
     vec2 half_difference = half_sign(px) * moments.xz;
     if (found) {
-        length = min(sum.least_length + 1.0, float(history_max));
-        const float alpha = max(least_alpha(p), 1.0 / length);
-        const float alpha_moments = max(svgf_moments_alpha, 1.0 / length);
         const vec4 old = sum.moments / sum.weight;
-        moments = vec4(blend_moments(old.xy, moments.x, alpha_moments), blend_moments(old.zw, moments.z, alpha_moments));
         const vec3 old_first = sum.first / sum.weight;
         const vec3 old_second = sum.second / sum.weight;
-        const vec2 surprise = vec2(luminance(first - old_first), luminance(second - old_second));
-        half_difference = mix(sum.half_difference / sum.weight, half_sign(px) * surprise, alpha);
-        first = old_first + alpha * (first - old_first);
-        second = old_second + alpha * (second - old_second);
+        half_difference = sum.half_difference / sum.weight;
+        length = min(sum.least_length + length, float(history_max));
+        if (known) {
+            const float alpha = max(least_alpha(p), 1.0 / length);
+            const float alpha_moments = max(svgf_moments_alpha, 1.0 / length);
+            moments
+                = vec4(blend_moments(old.xy, moments.x, alpha_moments), blend_moments(old.zw, moments.z, alpha_moments));
+            const vec2 surprise = vec2(luminance(first - old_first), luminance(second - old_second));
+            half_difference = mix(half_difference, half_sign(px) * surprise, alpha);
+            first = old_first + alpha * (first - old_first);
+            second = old_second + alpha * (second - old_second);
+        } else {
+            moments = old;
+            first = old_first;
+            second = old_second;
+        }
+    } else if (!known) {
+        first = second = unknown_light();
+        moments = unknown_light().xxxx;
     }
 
-    moments = counted_finite(moments);
     half_difference = is_finite(half_difference.x + half_difference.y) ? half_difference : vec2(0.0);
-    imageStore(out_light, px, vec4(counted_finite(first), pack_noise(moments.y, half_difference.x)));
+    imageStore(out_light, px, vec4(first, pack_noise(moments.y, half_difference.x)));
 #ifdef SIGNAL_PAIR
-    imageStore(out_light_2, px, vec4(counted_finite(second), pack_noise(moments.w, half_difference.y)));
+    imageStore(out_light_2, px, vec4(second, pack_noise(moments.w, half_difference.y)));
 #endif
     imageStore(out_moments, px, moments);
     imageStore(out_length, px, vec4(lit(px) ? length : 0.0));

@@ -24,8 +24,8 @@ void main()
     const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
     if (!inside_frame(px))
         return;
-    const Light light = load_light(px);
-    const vec4 center = texelFetch(in_moments, px, 0);
+    const Light light = load_own_light(px);
+    const vec4 center = is_light(texelFetch(in_moments, px, 0)) ? texelFetch(in_moments, px, 0) : vec4(0.0);
     const Guide p = guide_at(px);
     const bool spatial = takes_part(p) && texelFetch(in_length, px, 0).x < float(svgf_spatial_frames);
 
@@ -38,17 +38,19 @@ void main()
             const ivec2 q = px + ivec2(x, y);
             const Guide other = guide_at(q);
             const vec4 moments = texelFetch(in_moments, q, 0);
-            const float weight = exp(-edge_exponent(p, other, vec2(x, y)));
-            if (inside_frame(q) && takes_part(other)) {
+            const float geometry = edge_exponent(p, other, vec2(x, y));
+            const float weight = exp(-geometry);
+            if (inside_frame(q) && takes_part(other) && geometry >= 0.0 && is_light(moments)) {
                 const vec2 delta = moments.xz - center.xz;
                 sum += weight * vec4(delta.x, moments.y + delta.x * delta.x, delta.y, moments.w + delta.y * delta.y);
                 weight_sum += weight;
             }
         }
     vec2 variance = vec2(light.first.a, light.second.a);
-    if (spatial) {
+    if (spatial && weight_sum > 0.0) {
         const vec4 m = sum / weight_sum;
         variance = max(vec2(0.0), m.yw - m.xz * m.xz);
     }
-    store_light(px, Light(vec4(light.first.rgb, variance.x), vec4(light.second.rgb, variance.y), light.half_difference));
+    store_light(px, Light(vec4(light.first.rgb, variance.x), vec4(light.second.rgb, variance.y),
+                        light.half_difference, light.known));
 }
