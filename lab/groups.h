@@ -14,6 +14,7 @@ struct Group {
 Group accumulation_group();
 Group bsdf_group();
 Group display_group();
+Group filter_group();
 Group laws_group();
 Group poison_group();
 Group random_group();
@@ -21,8 +22,8 @@ Group transport_group();
 
 inline std::vector<Group> all_groups()
 {
-    return {accumulation_group(), bsdf_group(), display_group(), laws_group(), poison_group(),
-        random_group(), transport_group()};
+    return {accumulation_group(), bsdf_group(), display_group(), filter_group(), laws_group(),
+        poison_group(), random_group(), transport_group()};
 }
 
 }  // namespace farlight::lab

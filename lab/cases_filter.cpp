@@ -1,0 +1,349 @@
+// The filter: what is constant stays so, what is noisy keeps its mean and its variance, and nothing
+// leaks.
+#include "lab/filter_bench.h"
+#include "lab/groups.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace farlight::lab {
+namespace {
+
+constexpr Extent kFiltered{40, 24};
+
+using Texels = std::vector<glm::vec4>;
+
+std::size_t place_of(int x, int y)
+{
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(kFiltered.width)
+        + static_cast<std::size_t>(x);
+}
+
+/// Of every pixel of a picture of kFiltered.
+template <typename Value> void for_pixels(const Value& value)
+{
+    for (int y = 0; y < kFiltered.height; ++y)
+        for (int x = 0; x < kFiltered.width; ++x)
+            value(x, y);
+}
+
+void put(PassBench& bench, const std::string& name, const Texels& texels)
+{
+    for_pixels([&](int x, int y) { bench.set_pixel(name, x, y, texels[place_of(x, y)]); });
+}
+
+/// Everything the filter does to a signal: over time, its variance, and the wavelets, with the
+/// feedback of a view.
+class WholeFilter {
+public:
+    /// `surface` of each pixel: what in_surface and prev_surface hold; zero is a miss.
+    using Surface = std::function<glm::uvec4(int x, int y)>;
+
+    explicit WholeFilter(const Surface& surface)
+    {
+        for (PassBench* bench : {temporal_.get(), variance_.get(), atrous_.get()}) {
+            bench->frame().camera.pixel_footprint = 0.01F;  // as in a picture 200 pixels high
+            for_pixels([&](int x, int y) { bench->set_bits("in_surface", x, y, surface(x, y)); });
+        }
+        for_pixels([&](int x, int y) {
+            const bool met = surface(x, y) != glm::uvec4(0);
+            temporal_->set_bits("prev_surface", x, y, surface(x, y));
+            for (const char* identity : {"in_identity", "prev_identity"})
+                temporal_->set_bits(identity, x, y, glm::uvec4(0, 0, 0, met ? 1 : 0));
+        });
+    }
+
+    /// The filtered picture of a frame that shows `light`; the second signal shows the same.
+    const Texels& frame(const Texels& light)
+    {
+        for (const char* name : {"in_light", "in_light_2"})
+            put(*temporal_, name, light);
+        temporal_->constant("history_valid", frames_++ > 0 ? 1 : 0);
+        temporal_->run();
+        put(*variance_, "in_light", temporal_->read("out_light"));
+        put(*variance_, "in_light_2", temporal_->read("out_light_2"));
+        put(*variance_, "in_moments", temporal_->read("out_moments"));
+        put(*variance_, "in_length", temporal_->read("out_length"));
+        variance_->run();
+        picture_ = variance_->read("out_light");
+        second_ = variance_->read("out_light_2");
+        for (int step = 1; step <= 16; step *= 2) {
+            put(*atrous_, "in_light", picture_);
+            put(*atrous_, "in_light_2", second_);
+            atrous_->constant("step_size", step);
+            atrous_->run();
+            picture_ = atrous_->read("out_light");
+            second_ = atrous_->read("out_light_2");
+            if (step == 1) {
+                put(*temporal_, "prev_light", picture_);
+                put(*temporal_, "prev_light_2", second_);
+            }
+        }
+        temporal_->swap("prev_moments", "out_moments");
+        temporal_->swap("prev_length", "out_length");
+        return picture_;
+    }
+    /// Of the last frame [frames].
+    double shortest_history() const
+    {
+        float shortest = std::numeric_limits<float>::max();
+        for (const glm::vec4& texel : temporal_->read("prev_length"))
+            shortest = std::min(shortest, texel.x);
+        return shortest;
+    }
+    /// Pixels of the last frame whose mean or variance over time no number says.
+    int endless_moments() const
+    {
+        const Texels moments = temporal_->read("prev_moments");
+        return static_cast<int>(std::count_if(moments.begin(), moments.end(),
+            [](const glm::vec4& m) { return !std::isfinite(m.x + m.y); }));
+    }
+    std::uint32_t bad_values() const
+    {
+        return temporal_->nonfinite_count() + variance_->nonfinite_count()
+            + atrous_->nonfinite_count();
+    }
+
+private:
+    std::unique_ptr<PassBench> temporal_ = filter_bench("temporal", kFiltered);
+    std::unique_ptr<PassBench> variance_ = filter_bench("variance", kFiltered);
+    std::unique_ptr<PassBench> atrous_ = filter_bench("atrous", kFiltered);
+    Texels picture_;
+    Texels second_;
+    int frames_ = 0;
+};
+
+glm::uvec4 wall_everywhere(int /*x*/, int /*y*/)
+{
+    return wall_at(kWallDepth);
+}
+
+Texels texels_of(const std::function<glm::vec3(int x, int y)>& value)
+{
+    Texels texels;
+    for_pixels([&](int x, int y) { texels.emplace_back(value(x, y), 0); });
+    return texels;
+}
+
+/// NaN counts as infinitely far.
+double farther(double most, double off)
+{
+    return off <= most ? most : std::isnan(off) ? INFINITY : off;
+}
+
+/// A mean and a variance of luminance in 32 bits over time: E[x^2] - E[x]^2 of them is less than
+/// nothing in a quarter of the frames where they hardly vary. Welford 1962 in double precision,
+/// with the same weights, is the oracle.
+void variance_is_never_negative(Findings& findings, Length length)
+{
+    const std::unique_ptr<PassBench> bench = filter_bench("temporal", kFiltered);
+    const auto pixels = place_of(0, kFiltered.height);
+    std::vector<double> mean(pixels);
+    std::vector<double> variance(pixels);
+    std::mt19937 random(11);
+    std::normal_distribution<float> normal(0, 1);
+    const int frames = length == Length::kLong ? 4096 : 256;
+    double off = 0;
+    int negative = 0;
+    for (int frame = 1; frame <= frames; ++frame) {
+        Texels light(pixels);
+        for (std::size_t i = 0; i < pixels; ++i) {
+            // From a millionth to a tenth, over rows.
+            const float sigma =
+                std::pow(10.0F, -6.0F + 5.0F * static_cast<float>(i) / static_cast<float>(pixels));
+            light[i] = glm::vec4(glm::vec3(std::max(0.0F, 1 + sigma * normal(random))), 0);
+            const double value = static_cast<double>(light[i].x)
+                * (0.2126F + static_cast<double>(0.7152F) + 0.0722F);
+            const double weight = std::max(static_cast<double>(0.2F), 1.0 / std::min(frame, 32));
+            const double delta = frame == 1 ? 0 : value - mean[i];
+            mean[i] = frame == 1 ? value : mean[i] + weight * delta;
+            variance[i] = (1 - weight) * (variance[i] + weight * delta * delta);
+        }
+        put(*bench, "in_light", light);
+        bench->constant("history_valid", frame > 1 ? 1 : 0);
+        bench->run();
+        bench->swap("prev_light", "out_light");
+        bench->swap("prev_light_2", "out_light_2");
+        bench->swap("prev_moments", "out_moments");
+        bench->swap("prev_length", "out_length");
+        const Texels moments = bench->read("prev_moments");
+        for (std::size_t i = 0; i < pixels; ++i) {
+            negative += moments[i].y >= 0 ? 0 : 1;
+            off = farther(off, std::abs(moments[i].y - variance[i]) / (mean[i] * mean[i]));
+        }
+    }
+    findings.none("variances below zero", negative);
+    findings.at_most("variance off Welford's, of the mean squared", off, 1e-5);
+}
+
+/// Light at which a square leaves half precision, single precision, or all.
+void bright_light_overflows_nothing(Findings& findings, Length /*length*/)
+{
+    double off = 0;
+    double shortest = 4;
+    std::uint32_t bad = 0;
+    for (const float bright : {256.0F, 6e4F, 1e18F, 1e25F, 1e37F}) {
+        WholeFilter filter(wall_everywhere);
+        Texels picture;
+        for (int frame = 0; frame < 4; ++frame)
+            picture = filter.frame(texels_of([&](int, int) { return glm::vec3(bright); }));
+        for (const glm::vec4& texel : picture)
+            off = farther(off, std::abs(static_cast<double>(texel.x) / bright - 1));
+        shortest = std::min(shortest, filter.shortest_history());
+        bad += filter.bad_values();
+    }
+    findings.at_least("shortest history after 4 frames", shortest, 4);
+    findings.at_most("deviation from constants of 256 to 1e37", off, 1e-5);
+    findings.none("values that were no light", bad);
+}
+
+/// One pixel brighter than half precision can say, flaring up in a still grey picture.
+void a_flare_stays_a_flare(Findings& findings, Length /*length*/)
+{
+    double hue = 0;
+    double shortest = 6;
+    int beyond = 0;
+    int endless = 0;
+    std::uint32_t bad = 0;
+    for (const float bright : {1e5F, 1e12F, 1e20F, 1e37F}) {
+        WholeFilter filter(wall_everywhere);
+        for (int frame = 0; frame < 6; ++frame) {
+            const Texels& picture = filter.frame(texels_of([&](int x, int y) {
+                return frame == 3 && x == 20 && y == 11 ? bright * glm::vec3(1, 0.5F, 0.25F)
+                                                        : glm::vec3(0.5F);
+            }));
+            for (const glm::vec4& texel : picture)
+                beyond += texel.x >= 0 && texel.y >= 0 && texel.x <= bright * 1.00001F ? 0 : 1;
+            endless += filter.endless_moments();
+            const glm::dvec3 flare(picture[place_of(20, 11)]);
+            if (frame >= 3 && flare.x > 1e4)
+                hue = farther(hue,
+                    std::max(std::abs(flare.y / flare.x / 0.5 - 1),
+                        std::abs(flare.z / flare.x / 0.25 - 1)));
+        }
+        shortest = std::min(shortest, filter.shortest_history());
+        bad += filter.bad_values();
+    }
+    findings.at_least("shortest history after 6 frames", shortest, 6);
+    findings.at_most("change of the flare's hue", hue, 1e-4);
+    findings.none("pixels outside of what came in", beyond);
+    findings.none("means and variances that are no number", endless);
+    findings.none("values that were no light", bad);
+}
+
+/// Zero variance makes the luminance weight exp(-x / 0).
+void a_constant_stays(Findings& findings, Length length)
+{
+    const int frames = length == Length::kLong ? 1000 : 8;
+    double off = 0;
+    std::uint32_t bad = 0;
+    for (const glm::vec3 constant : {glm::vec3(0), glm::vec3(1e-30F, 0, 1e-20F),
+             glm::vec3(0.1F, 0.7F, 1.3F), glm::vec3(3e4F)}) {
+        WholeFilter filter(wall_everywhere);
+        for (int frame = 0; frame < frames; ++frame)
+            for (const glm::vec4& texel :
+                filter.frame(texels_of([&](int, int) { return constant; })))
+                for (int c = 0; c < 3; ++c)
+                    off = farther(off,
+                        constant[c] > 0 ? std::abs(static_cast<double>(texel[c]) / constant[c] - 1)
+                                        : std::abs(static_cast<double>(texel[c])));
+        bad += filter.bad_values();
+    }
+    findings.at_most(
+        "deviation from constants after " + std::to_string(frames) + " frames", off, 1e-5);
+    findings.none("values that were no light", bad);
+}
+
+/// Columns from 20 on see the sky, or a wall at least 20 pixel footprints nearer or farther, up to
+/// 1e30 m away.
+void nothing_leaks_over_an_edge(Findings& findings, Length /*length*/)
+{
+    double wall = 0;
+    double other = 0;
+    for (const float depth_there : {0.0F, 0.01F, 12.0F, 1e30F}) {
+        WholeFilter filter([&](int x, int) {
+            return x < 20         ? wall_at(kWallDepth)
+                : depth_there > 0 ? wall_at(depth_there)
+                                  : glm::uvec4(0);
+        });
+        std::mt19937 random(5);
+        std::exponential_distribution<float> value(1);
+        for (int frame = 0; frame < 6; ++frame) {
+            // A noisy dark side: its large variance would let everything through.
+            const Texels& picture = filter.frame(texels_of([&](int x, int) {
+                return x < 20         ? glm::vec3(1)
+                    : depth_there > 0 ? glm::vec3(100 * value(random))
+                                      : glm::vec3(0);
+            }));
+            for_pixels([&](int x, int y) {
+                const glm::vec4& texel = picture[place_of(x, y)];
+                if (x < 20)
+                    wall = farther(wall, std::abs(static_cast<double>(texel.x) - 1));
+                else if (!(depth_there > 0))
+                    other = farther(other, std::abs(static_cast<double>(texel.x)));
+            });
+        }
+    }
+    findings.at_most("light of what is behind, on a white wall", wall, 1e-5);
+    findings.none("light on the sky", other);
+}
+
+/// Column 20 is one wall seen past another: a post a pixel wide.
+void nothing_leaks_over_a_post(Findings& findings, Length /*length*/)
+{
+    WholeFilter filter([](int x, int) { return wall_at(x == 20 ? 5.0F : kWallDepth); });
+    double bleed = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+        const Texels& picture = filter.frame(texels_of(
+            [](int x, int) { return x == 20 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0); }));
+        for_pixels([&](int x, int y) {
+            const glm::vec4& texel = picture[place_of(x, y)];
+            bleed = farther(bleed, x == 20 ? texel.y : texel.x);
+        });
+    }
+    findings.at_most("light of the other colour", bleed, 1.0 / 255);
+}
+
+constexpr Case kFilterCases[] = {
+    {"52", "filter", "variance below zero", Layer::kFunction,
+        "The variance over time is never negative and is Welford's.", variance_is_never_negative},
+    {"53", "filter", "squares of bright light", Layer::kFunction,
+        "Constant light of any brightness has no variance and stays.",
+        bright_light_overflows_nothing},
+    {"54", "filter", "a flare", Layer::kFunction,
+        "A pixel brighter than half precision can say keeps its hue and makes nothing brighter "
+        "than itself.",
+        a_flare_stays_a_flare},
+    {"55", "filter", "a constant picture", Layer::kFunction,
+        "Constant light stays constant through the whole filter.", a_constant_stays},
+    {"56", "filter", "a post a pixel wide", Layer::kFunction, "Nothing leaks over a silhouette.",
+        nothing_leaks_over_a_post},
+    {"57", "filter", "sky beside a wall", Layer::kFunction,
+        "Neither sky nor what is much farther or nearer takes part in a wall's light.",
+        nothing_leaks_over_an_edge},
+};
+
+constexpr Guard kFilterGuards[] = {
+    {"centred_moments", "52 53", "svgf/temporal.comp",
+        "(1.0 - alpha) * (old.y + alpha * bounded * bounded)",
+        "mix(old.y + old.x * old.x, value * value, alpha) - pow(old.x + alpha * delta, 2.0)"},
+    {"normalised_kernel", "55", "svgf/atrous.comp", "const vec2 scale = 1.0 / weight_sum;",
+        "const vec2 scale = vec2(1.0);"},
+    {"depth_weight", "56 57", "svgf/surface.glsl",
+        "return abs(p.depth - depth_q) / max(expected, 1e-37);",
+        "return 1e-3 * abs(p.depth - depth_q) / max(expected, 1e-37);"},
+    {"bounded_square", "54", "svgf/temporal.comp", "clamp(delta, -1e18, 1e18)", "delta"},
+};
+
+}  // namespace
+
+Group filter_group()
+{
+    return {kFilterCases, kFilterGuards};
+}
+
+}  // namespace farlight::lab
