@@ -2,6 +2,7 @@
 // leaks.
 #include "lab/filter_bench.h"
 #include "lab/groups.h"
+#include "lab/whole_filter.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,110 +13,6 @@
 
 namespace farlight::lab {
 namespace {
-
-constexpr Extent kFiltered{40, 24};
-
-using Texels = std::vector<glm::vec4>;
-
-std::size_t place_of(int x, int y)
-{
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(kFiltered.width)
-        + static_cast<std::size_t>(x);
-}
-
-/// Of every pixel of a picture of kFiltered.
-template <typename Value> void for_pixels(const Value& value)
-{
-    for (int y = 0; y < kFiltered.height; ++y)
-        for (int x = 0; x < kFiltered.width; ++x)
-            value(x, y);
-}
-
-void put(PassBench& bench, const std::string& name, const Texels& texels)
-{
-    for_pixels([&](int x, int y) { bench.set_pixel(name, x, y, texels[place_of(x, y)]); });
-}
-
-/// Everything the filter does to a signal: over time, its variance, and the wavelets, with the
-/// feedback of a view.
-class WholeFilter {
-public:
-    /// `surface` of each pixel: what in_surface and prev_surface hold; zero is a miss.
-    using Surface = std::function<glm::uvec4(int x, int y)>;
-
-    explicit WholeFilter(const Surface& surface)
-    {
-        for (PassBench* bench : {temporal_.get(), variance_.get(), atrous_.get()}) {
-            bench->frame().camera.pixel_footprint = 0.01F;  // as in a picture 200 pixels high
-            for_pixels([&](int x, int y) { bench->set_bits("in_surface", x, y, surface(x, y)); });
-        }
-        for_pixels([&](int x, int y) {
-            const bool met = surface(x, y) != glm::uvec4(0);
-            temporal_->set_bits("prev_surface", x, y, surface(x, y));
-            for (const char* identity : {"in_identity", "prev_identity"})
-                temporal_->set_bits(identity, x, y, glm::uvec4(0, 0, 0, met ? 1 : 0));
-        });
-    }
-
-    /// The filtered picture of a frame that shows `light`; the second signal shows the same.
-    const Texels& frame(const Texels& light)
-    {
-        for (const char* name : {"in_light", "in_light_2"})
-            put(*temporal_, name, light);
-        temporal_->constant("history_valid", frames_++ > 0 ? 1 : 0);
-        temporal_->run();
-        put(*variance_, "in_light", temporal_->read("out_light"));
-        put(*variance_, "in_light_2", temporal_->read("out_light_2"));
-        put(*variance_, "in_moments", temporal_->read("out_moments"));
-        put(*variance_, "in_length", temporal_->read("out_length"));
-        variance_->run();
-        picture_ = variance_->read("out_light");
-        second_ = variance_->read("out_light_2");
-        for (int step = 1; step <= 16; step *= 2) {
-            put(*atrous_, "in_light", picture_);
-            put(*atrous_, "in_light_2", second_);
-            atrous_->constant("step_size", step);
-            atrous_->run();
-            picture_ = atrous_->read("out_light");
-            second_ = atrous_->read("out_light_2");
-            if (step == 1) {
-                put(*temporal_, "prev_light", picture_);
-                put(*temporal_, "prev_light_2", second_);
-            }
-        }
-        temporal_->swap("prev_moments", "out_moments");
-        temporal_->swap("prev_length", "out_length");
-        return picture_;
-    }
-    /// Of the last frame [frames].
-    double shortest_history() const
-    {
-        float shortest = std::numeric_limits<float>::max();
-        for (const glm::vec4& texel : temporal_->read("prev_length"))
-            shortest = std::min(shortest, texel.x);
-        return shortest;
-    }
-    /// Pixels of the last frame whose mean or variance over time no number says.
-    int endless_moments() const
-    {
-        const Texels moments = temporal_->read("prev_moments");
-        return static_cast<int>(std::count_if(moments.begin(), moments.end(),
-            [](const glm::vec4& m) { return !std::isfinite(m.x + m.y); }));
-    }
-    std::uint32_t bad_values() const
-    {
-        return temporal_->nonfinite_count() + variance_->nonfinite_count()
-            + atrous_->nonfinite_count();
-    }
-
-private:
-    std::unique_ptr<PassBench> temporal_ = filter_bench("temporal", kFiltered);
-    std::unique_ptr<PassBench> variance_ = filter_bench("variance", kFiltered);
-    std::unique_ptr<PassBench> atrous_ = filter_bench("atrous", kFiltered);
-    Texels picture_;
-    Texels second_;
-    int frames_ = 0;
-};
 
 glm::uvec4 wall_everywhere(int /*x*/, int /*y*/)
 {
@@ -308,6 +205,81 @@ void nothing_leaks_over_a_post(Findings& findings, Length /*length*/)
     findings.at_most("light of the other colour", bleed, 1.0 / 255);
 }
 
+constexpr Extent kShown{37, 21};
+
+/// Six frames of noise, mirrored or not, in a frame beyond whose edges the textures hold `beyond`.
+WholeFilter filtered_in_band(float beyond, bool mirrored, Texels& picture)
+{
+    WholeFilter filter(wall_everywhere, kShown, beyond);
+    std::mt19937 random(17);
+    std::exponential_distribution<float> value(1);
+    for (int frame = 1; frame <= 6; ++frame) {
+        Texels light(place_of(0, kFiltered.height), glm::vec4(beyond));
+        for (int y = 0; y < kShown.height; ++y)
+            for (int x = 0; x < kShown.width; ++x)
+                light[place_of(mirrored ? kShown.width - 1 - x : x, y)] =
+                    glm::vec4(glm::vec3(value(random)), 0);
+        picture = filter.frame(light);
+    }
+    return filter;
+}
+
+/// A tap that leaves the frame would bring in what is there: NaN, or light like any.
+void edges_are_pixels_like_others(Findings& findings, Length /*length*/)
+{
+    Texels in_nan;
+    Texels in_light;
+    Texels mirrored;
+    const WholeFilter filter = filtered_in_band(NAN, false, in_nan);
+    const WholeFilter bright = filtered_in_band(1, false, in_light);
+    filtered_in_band(NAN, true, mirrored);
+    double off = 0;
+    int differ = 0;
+    for (int y = 0; y < kShown.height; ++y)
+        for (int x = 0; x < kShown.width; ++x) {
+            const double here = in_nan[place_of(x, y)].x;
+            off = farther(off, std::abs(mirrored[place_of(kShown.width - 1 - x, y)].x / here - 1));
+            differ += in_nan[place_of(x, y)] == in_light[place_of(x, y)] ? 0 : 1;
+        }
+    findings.none("pixels that show what is beyond the frame", differ);
+    findings.none("values that were no light", filter.bad_values() + bright.bad_values());
+    findings.at_least("shortest history after 6 frames", filter.shortest_history(), 6);
+    // Sums in another order: 25 roundings a pass.
+    findings.at_most("mirrored light off the mirrored picture", off, 1e-4);
+}
+
+/// What has no depth now has no history; what had none is no history.
+void no_depth_no_history(Findings& findings, Length /*length*/)
+{
+    int kept = 0;
+    int lost = 0;
+    double stale = 0;
+    for (const float depth :
+        {std::numeric_limits<float>::quiet_NaN(), -1.0F, std::numeric_limits<float>::infinity()})
+        for (const char* which : {"in_surface", "prev_surface"}) {
+            const std::unique_ptr<PassBench> bench = filter_bench("temporal", kFiltered);
+            bench->fill("in_light", GL_RGBA32F, glm::vec4(1));
+            bench->fill("prev_light", GL_RGBA32F, glm::vec4(1, 1, 1, noise_word(1)));
+            bench->fill("prev_length", GL_RGBA32F, glm::vec4(5));
+            bench->set_pixel("prev_light", 20, 11, {1000, 1000, 1000, noise_word(1)});
+            bench->set_bits(which, 20, 11, wall_at(depth));
+            bench->run();
+            const Texels lengths = bench->read("out_length");
+            const Texels light = bench->read("out_light");
+            for_pixels([&](int x, int y) {
+                if (x == 20 && y == 11)
+                    return;
+                lost += lengths[place_of(x, y)].x == 6 ? 0 : 1;
+            });
+            if (std::string_view(which) == "in_surface")
+                kept += lengths[place_of(20, 11)].x == 1 ? 0 : 1;
+            stale = farther(stale, light[place_of(20, 11)].x - 1);
+        }
+    findings.none("histories of pixels without depth", kept);
+    findings.none("other histories lost", lost);
+    findings.at_most("light taken from pixels without depth", stale, 1e-6);
+}
+
 constexpr Case kFilterCases[] = {
     {"52", "filter", "variance below zero", Layer::kFunction,
         "The variance over time is never negative and is Welford's.", variance_is_never_negative},
@@ -325,6 +297,13 @@ constexpr Case kFilterCases[] = {
     {"57", "filter", "sky beside a wall", Layer::kFunction,
         "Neither sky nor what is much farther or nearer takes part in a wall's light.",
         nothing_leaks_over_an_edge},
+    {"60", "filter", "a depth that is none", Layer::kFunction,
+        "A pixel whose depth is no number starts anew, and nobody takes its light.",
+        no_depth_no_history},
+    {"61", "filter", "the frame's edge", Layer::kFunction,
+        "Nothing from beyond the frame is looked at, its edge has histories as all of it has, and "
+        "mirrored light gives the mirrored picture.",
+        edges_are_pixels_like_others},
 };
 
 constexpr Guard kFilterGuards[] = {
@@ -336,6 +315,14 @@ constexpr Guard kFilterGuards[] = {
     {"depth_weight", "56 57", "svgf/surface.glsl",
         "return abs(p.depth - depth_q) / max(expected, 1e-37);",
         "return 1e-3 * abs(p.depth - depth_q) / max(expected, 1e-37);"},
+    {"accept_if", "60", "svgf/past.glsl", "plane_distance <= p.tolerance",
+        "!(plane_distance > p.tolerance)"},
+    {"edge_of_past", "61", "lib/frame.glsl",
+        "all(lessThan(px, ivec2(frame.prev_camera.width, frame.prev_camera.height)))",
+        "all(lessThan(px + 1, ivec2(frame.prev_camera.width, frame.prev_camera.height)))"},
+    {"tap_in_frame", "61", "svgf/atrous.comp",
+        "if (inside_frame(q) && takes_part(other) && comparable && o != ivec2(0))",
+        "if (takes_part(other) && comparable && o != ivec2(0))"},
     {"bounded_square", "54", "svgf/temporal.comp", "clamp(delta, -1e18, 1e18)", "delta"},
 };
 
