@@ -15,6 +15,7 @@ Group accumulation_group();
 Group bsdf_group();
 Group display_group();
 Group filter_group();
+Group history_group();
 Group laws_group();
 Group poison_group();
 Group random_group();
@@ -22,8 +23,8 @@ Group transport_group();
 
 inline std::vector<Group> all_groups()
 {
-    return {accumulation_group(), bsdf_group(), display_group(), filter_group(), laws_group(),
-        poison_group(), random_group(), transport_group()};
+    return {accumulation_group(), bsdf_group(), display_group(), filter_group(), history_group(),
+        laws_group(), poison_group(), random_group(), transport_group()};
 }
 
 }  // namespace farlight::lab

@@ -1,4 +1,4 @@
-// SVGF over time: history length, constancy, quality, determinism, feedback.
+// SVGF over time: constancy, quality, determinism, feedback. Lengths of histories: lab/cases_history.cpp.
 #include "lab/meshes.h"
 #include "lab/statistics.h"
 #include "tests/support/gl_test.h"
@@ -18,88 +18,6 @@ RenderRequest request_view(const Scene& scene, DebugView which)
 }
 
 class SvgfTest : public GlTest { };
-
-/// Row 0 and column 0 are pixels like any other.
-TEST_F(SvgfTest, HistoryLengthCountsFramesEverywhereUnderAStillCamera)
-{
-    const DeviceScene scene(room_with(bumpy_sphere(24, 12)));
-    View view(scene.shared);
-    RenderRequest request = request_view(scene.scene, DebugView::kHistoryLength);
-    request.settings.history_max = 6;
-    for (int frame = 1; frame <= 9; ++frame) {
-        const Image length = view.render(request).image;
-        for (int y = 0; y < kSvgfExtent.height; ++y)
-            for (int x = 0; x < kSvgfExtent.width; ++x)
-                ASSERT_EQ(pixel(length, x, y).x, std::min(frame, 6))
-                    << x << "," << y << " frame " << frame;
-    }
-}
-
-/// A wall ten units behind a ball: stepping aside uncovers a crescent, which starts anew; the rest
-/// goes on.
-TEST_F(SvgfTest, NewlyRevealedPixelsStartWithOneFrame)
-{
-    Scene scene;
-    scene.materials.push_back({"white"});
-    scene.materials.push_back({"grey", glm::vec3(0.4F)});
-    scene.objects.push_back({"wall", 0, Quad{{-50, -50, -10}, {100, 0, 0}, {0, 100, 0}}});
-    scene.objects.push_back({"ball", 1, Sphere{{0, 0, 0}, 1}});
-    scene.background = glm::vec3(1);
-    scene.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 45};
-    const DeviceScene on_device(scene);
-    View view(on_device.shared);
-    RenderRequest request = request_view(scene, DebugView::kHistoryLength);
-    for (int i = 0; i < 8; ++i)
-        view.render(request);
-    View before(on_device.shared);
-    const Image old_ids = before.render(request_view(scene, DebugView::kObjectId)).image;
-
-    const double step = 0.5;
-    request.camera.position.x += step;
-    request.camera.target.x += step;
-    const Image length = view.render(request).image;
-    RenderRequest id_request = request_view(scene, DebugView::kObjectId);
-    id_request.camera = request.camera;
-    View after(on_device.shared);
-    const Image ids = after.render(id_request).image;
-    RenderRequest position_request = request_view(scene, DebugView::kPosition);
-    position_request.camera = request.camera;
-    const Image positions = View(on_device.shared).render(position_request).image;
-
-    int revealed = 0;
-    int kept = 0;
-    const double pixels_per_unit = kSvgfExtent.height / 2.0 / std::tan(glm::radians(22.5));
-    for (int y = 0; y < kSvgfExtent.height; ++y)
-        for (int x = 0; x < kSvgfExtent.width; ++x) {
-            // Where the surface was, from its position alone; two pixels from any edge of ball or
-            // frame.
-            const glm::vec3 p = pixel(positions, x, y);
-            const double depth = 4 - p.z;
-            const int old_x =
-                static_cast<int>(std::floor(x + step / depth * pixels_per_unit + 0.5));
-            bool same = true;
-            bool other = true;
-            bool outside = true;
-            for (int dy = -2; dy <= 2; ++dy)
-                for (int dx = -2; dx <= 2; ++dx) {
-                    const bool in = old_x + dx >= 0 && old_x + dx < kSvgfExtent.width && y + dy >= 0
-                        && y + dy < kSvgfExtent.height;
-                    outside = outside && old_x + dx >= kSvgfExtent.width;
-                    const float id = in ? pixel(old_ids, old_x + dx, y + dy).x : -1;
-                    same = same && id == pixel(ids, x, y).x;
-                    other = other && in && id != pixel(ids, x, y).x;
-                }
-            if (other || outside) {
-                ++revealed;
-                ASSERT_EQ(pixel(length, x, y).x, 1) << x << "," << y;
-            } else if (same) {
-                ++kept;
-                ASSERT_EQ(pixel(length, x, y).x, 9) << x << "," << y;
-            }
-        }
-    EXPECT_GT(revealed, 20);
-    EXPECT_GT(kept, kSvgfExtent.width * kSvgfExtent.height / 2);
-}
 
 /// A cut forgets everything: lengths start at one, random numbers start over.
 TEST_F(SvgfTest, CutRestartsHistoryAndRandomNumbers)
