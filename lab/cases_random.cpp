@@ -3,6 +3,7 @@
 #include "lab/evaluate.h"
 #include "lab/groups.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

@@ -32,7 +32,9 @@ Hit no_hit(float t_max)
 struct Traversal {
     vec3 origin;
     vec3 direction;
-    vec3 inverse_direction;  // finite: a zero component becomes +-1e30
+    vec3 lower_origin;  // of the slab test, from the lower and the upper side of boxes: geometry/traverse.glsl
+    vec3 upper_origin;
+    vec3 inverse_direction;  // finite
 #ifdef FX_INSTANCES
     uint instance;  // whose space this is (geometry/instances.glsl)
     float stretch;  // length of the direction; exactly 1 in the world
@@ -49,16 +51,18 @@ Traversal prepare(Ray ray)
 {
     Traversal t;
     t.origin = ray.origin;
-    t.direction = ray.direction;
 #ifdef FX_INSTANCES
     t.instance = 0u;
     t.stretch = 1.0;
     t.material = 0u;
 #endif
-    const vec3 d = ray.direction;
-    // 1e-30 of a unit vector's length: only what 1 / d cannot represent.
-    t.inverse_direction = vec3(abs(d.x) > 1e-30 ? 1.0 / d.x : 1e30, abs(d.y) > 1e-30 ? 1.0 / d.y : 1e30,
-        abs(d.z) > 1e-30 ? 1.0 / d.z : 1e30);
+    // Of a unit vector 1e-30 is only what 1 / d cannot represent, and what would leave denormal edge functions of one
+    // digit. It counts as none: then only slabs that hold the origin do not end the ray at once.
+    const bvec3 moves = greaterThan(abs(ray.direction), vec3(1e-30));
+    const vec3 d = mix(vec3(0.0), ray.direction, moves);
+    t.direction = d;
+    t.lower_origin = t.upper_origin = ray.origin;
+    t.inverse_direction = mix(vec3(1e38), 1.0 / d, moves);
     const vec3 a = abs(d);
     t.axis = a.x > a.y && a.x > a.z ? 0 : a.y > a.z ? 1 : 2;
     const vec3 p = permute(d, t.axis);

@@ -5,12 +5,34 @@
 // primitives. The stack holds what the scene's tree can need (BVH_STACK_SIZE, from the builder).
 //
 // Box test: Williams et al. 2005, "An Efficient and Robust Ray-Box Intersection Algorithm"; the far side is
-// widened by 3 ulp after Ize 2013, "Robust BVH Ray Traversal", so that rounding never loses a box.
+// widened by 3 ulp after Ize 2013, "Robust BVH Ray Traversal", so that its own rounding never loses a box. That of the
+// triangle test must not either: see widen_boxes().
 #pragma once
 #include "geometry/coverage.glsl"
 #include "geometry/instances.glsl"
 #include "geometry/ray.glsl"
 #include "geometry/scene.glsl"
+
+// The triangle test translates and shears vertices, so an edge may be off by roundings of the farthest vertex: a box
+// that ends at the edge is widened by as much, as seen from the ray. It is also what keeps a box open to a ray that runs
+// in the plane of its side.
+//
+// Source: Woop, Benthin, Wald 2013, section 4: 5 * 2^-24 of the scene's reach along the axis and the ray's longest one.
+void widen_boxes(inout Traversal ray, uint root)
+{
+    const int at = int(root);
+    const vec4 there = vec4(notEqual(texelFetch(bvh_nodes, at + 6), uvec4(BVH_NO_CHILD)));
+    vec3 reach;
+    for (int axis = 0; axis < 3; ++axis) {
+        const vec4 lower = abs(uintBitsToFloat(texelFetch(bvh_nodes, at + axis)) - ray.origin[axis]);
+        const vec4 upper = abs(uintBitsToFloat(texelFetch(bvh_nodes, at + axis + 3)) - ray.origin[axis]);
+        const vec4 farther = max(lower, upper) * there;
+        reach[axis] = max(max(farther.x, farther.y), max(farther.z, farther.w));
+    }
+    const vec3 aside = 5.0 * 5.9604645e-8 * (reach + permute(reach, ray.axis).z);
+    ray.lower_origin = ray.origin + aside;
+    ray.upper_origin = ray.origin - aside;
+}
 
 struct NodeHit {
     vec4 t;          // entry distance of each child, T_INFINITY if missed
@@ -20,12 +42,12 @@ struct NodeHit {
 NodeHit intersect_node(Traversal ray, uint node, float t_max)
 {
     const int at = int(node);
-    const vec4 x0 = (uintBitsToFloat(texelFetch(bvh_nodes, at)) - ray.origin.x) * ray.inverse_direction.x;
-    const vec4 y0 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 1)) - ray.origin.y) * ray.inverse_direction.y;
-    const vec4 z0 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 2)) - ray.origin.z) * ray.inverse_direction.z;
-    const vec4 x1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 3)) - ray.origin.x) * ray.inverse_direction.x;
-    const vec4 y1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 4)) - ray.origin.y) * ray.inverse_direction.y;
-    const vec4 z1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 5)) - ray.origin.z) * ray.inverse_direction.z;
+    const vec4 x0 = (uintBitsToFloat(texelFetch(bvh_nodes, at)) - ray.lower_origin.x) * ray.inverse_direction.x;
+    const vec4 y0 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 1)) - ray.lower_origin.y) * ray.inverse_direction.y;
+    const vec4 z0 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 2)) - ray.lower_origin.z) * ray.inverse_direction.z;
+    const vec4 x1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 3)) - ray.upper_origin.x) * ray.inverse_direction.x;
+    const vec4 y1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 4)) - ray.upper_origin.y) * ray.inverse_direction.y;
+    const vec4 z1 = (uintBitsToFloat(texelFetch(bvh_nodes, at + 5)) - ray.upper_origin.z) * ray.inverse_direction.z;
     const vec4 enter = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4(0.0)));
     const vec4 leave = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * 1.0000004;
     const bvec4 hit = lessThanEqual(enter, min(leave, vec4(t_max)));
@@ -146,7 +168,9 @@ Traversal prepare_in(uint instance, Ray ray)
     Traversal t = prepare(local);
     t.instance = instance;
     t.stretch = length(local.direction);
-    t.material = instance_ids(instance).z;
+    const uvec4 ids = instance_ids(instance);
+    t.material = ids.z;
+    widen_boxes(t, ids.x);
     return t;
 }
 #endif
@@ -174,12 +198,14 @@ bool holds_primitives(uint node)
 // Children are visited nearest first, for shadow rays too: what blocks a ray is more often near than far.
 Hit traverse(Ray r, float t_max, const bool first_hit_ends)
 {
-    const Traversal world_ray = prepare(r);
+    Traversal world_ray = prepare(r);
+    widen_boxes(world_ray, 0u);
     Traversal ray = world_ray;
     Hit hit = no_hit(t_max);
     uint stack[BVH_STACK_SIZE];
     int depth = 0;
-    uint node = t_max > 0.0 ? 0u : BVH_NO_CHILD;
+    // A ray with NaN or infinity in it would open every box: comparisons with NaN are the device's choice.
+    uint node = t_max > 0.0 && is_finite(dot(r.origin, r.direction)) ? 0u : BVH_NO_CHILD;
     uint k = 0u;  // next primitive of the leaf `node`
     Candidate candidate;
     candidate.waits = false;

@@ -1,5 +1,4 @@
 // The G-buffer against a double-precision camera on the CPU: motion, depth and its gradient.
-#include "lab/meshes.h"
 #include "lab/projection.h"
 #include "tests/support/gl_test.h"
 
@@ -101,61 +100,6 @@ TEST_F(GlTest, DepthGradientIsThePlanesOwn)
             ASSERT_NEAR(g.y, -z * z * dy, 2e-5 * z) << x << "," << y;
         }
 }
-
-/// White surfaces under a white sky vanish: a pixel is below 1 only where a ray was caught on the
-/// surface it left, or slipped inside it and stayed there.
-Scene white_things(double scale, const glm::dvec3& center)
-{
-    Scene scene = scene_of(bumpy_sphere(60, 30));
-    scene.materials[0].albedo = glm::vec3(1);
-    scene.background = glm::vec3(1);
-    const auto place = [&](const glm::dvec3& at) { return center + scale * at; };
-    glm::dmat4 world_from_object(scale);
-    world_from_object[3] = glm::dvec4(place({-1.3, 0, 0}), 1);
-    std::get<MeshInstance>(scene.objects[0].shape).world_from_object = world_from_object;
-    scene.objects.push_back({"ball", 0, Sphere{place({1.3, 0, 0}), scale}});
-    // One plate along the axes with coordinates that are exactly zero, one askew.
-    scene.objects.push_back({"plate", 0,
-        Quad{place({-4, -1.5, -4}), scale * glm::dvec3(0, 0, 8), scale * glm::dvec3(8, 0, 0)}});
-    scene.objects.push_back({"askew", 0,
-        Quad{
-            place({-3, -1, -3}), scale * glm::dvec3(5, 1, 0.3), scale * glm::dvec3(-0.2, 3, 0.7)}});
-    scene.camera = {place({0, 1.5, 5}), center, {0, 1, 0}, 40};
-    return scene;
-}
-
-struct Placement {
-    const char* name;
-    double scale;
-    glm::dvec3 at;  ///< In units of the scale.
-
-    friend void PrintTo(const Placement& placement, std::ostream* out) { *out << placement.name; }
-};
-
-class SelfIntersectionTest : public GlTest, public testing::WithParamInterface<Placement> { };
-
-TEST_P(SelfIntersectionTest, WhiteThingsUnderAWhiteSkyVanish)
-{
-    const auto& [name, scale, at] = GetParam();
-    const DeviceScene on_device(white_things(scale, scale * at));
-    RenderSettings s;
-    s.denoiser = Denoiser::kOff;
-    s.max_depth = 64;  // a path that has not escaped by then was caught
-    s.roulette_depth = 64;
-    s.samples_per_pixel = 8;
-    View view(on_device.shared);
-    const Image image = view.render(linear_request(on_device.scene, kGbufferExtent, s)).image;
-    for (int y = 0; y < kGbufferExtent.height; ++y)
-        for (int x = 0; x < kGbufferExtent.width; ++x)
-            ASSERT_NEAR(pixel(image, x, y).x, 1, 1e-4) << x << "," << y;
-}
-
-INSTANTIATE_TEST_SUITE_P(ScalesAndPlaces, SelfIntersectionTest,
-    testing::Values(Placement{"AtTheOrigin", 1, {0, 0, 0}},
-        Placement{"PlateAtExactlyZero", 1, {0, 1.5, 0}}, Placement{"Tiny", 1e-3, {0, 1.5, 4}},
-        Placement{"Huge", 1e4, {0, 0, 0}}, Placement{"FarAway", 1, {1e3, 500, -250}},
-        Placement{"LargeAndFarAway", 1e3, {1e3, 500, -250}}),
-    [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace farlight
