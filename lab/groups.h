@@ -17,6 +17,7 @@ Group display_group();
 Group filter_group();
 Group history_group();
 Group laws_group();
+Group light_group();
 Group poison_group();
 Group precision_group();
 Group random_group();
@@ -28,8 +29,8 @@ Group watertight_group();
 inline std::vector<Group> all_groups()
 {
     return {accumulation_group(), bsdf_group(), display_group(), filter_group(), history_group(),
-        laws_group(), poison_group(), precision_group(), random_group(), scale_group(),
-        transport_group(), tree_group(), watertight_group()};
+        laws_group(), light_group(), poison_group(), precision_group(), random_group(),
+        scale_group(), transport_group(), tree_group(), watertight_group()};
 }
 
 }  // namespace farlight::lab

@@ -59,6 +59,8 @@ struct HistorySum {
 void add_tap(Past p, ivec2 q, float weight, inout HistorySum sum)
 {
     const float tap_length = texelFetch(prev_length, q, 0).x;
+    if (!(weight >= LEAST_TAP_WEIGHT && tap_length >= 1.0 && consistent(p, q)))
+        return;
     const vec4 first = texelFetch(prev_light, q, 0);
     const vec4 moments = texelFetch(prev_moments, q, 0);
 #ifdef SIGNAL_PAIR
@@ -67,13 +69,10 @@ void add_tap(Past p, ivec2 q, float weight, inout HistorySum sum)
     const vec4 second = vec4(0.0);
 #endif
     const bool known = is_light(first) && is_light(second) && is_light(moments);
-    if (weight >= LEAST_TAP_WEIGHT && tap_length >= 1.0 && known && consistent(p, q)) {
+    if (known) {
         sum.first += weight * first.rgb;
-        sum.half_difference.x += weight * half_difference_in(first.a);
-#ifdef SIGNAL_PAIR
         sum.second += weight * second.rgb;
-        sum.half_difference.y += weight * half_difference_in(second.a);
-#endif
+        sum.half_difference += weight * vec2(half_difference_in(first.a), half_difference_in(second.a));
         sum.moments += weight * moments;
         sum.least_length = min(sum.least_length, tap_length);
         sum.weight += weight;
@@ -106,6 +105,16 @@ vec2 blend_moments(vec2 old, float value, float alpha)
     const float delta = value - old.x;
     const float bounded = clamp(delta, -1e18, 1e18);
     return vec2(old.x + alpha * delta, (1.0 - alpha) * (old.y + alpha * bounded * bounded));
+}
+
+// Four times the least normal number: below, a fraction of what is left rounds to nothing, and it would stay for ever.
+const float LEAST_LIGHT = 4.7e-38;
+
+// One step of the exponential average of light, which ends at zero.
+vec3 blend_light(vec3 old, vec3 value, float alpha)
+{
+    const vec3 light = old + alpha * (value - old);
+    return mix(light, vec3(0.0), lessThan(light, vec3(LEAST_LIGHT)));
 }
 
 // A mirror's light is filtered over time alone, so more of it is kept.
@@ -152,8 +161,8 @@ void main()
                 = vec4(blend_moments(old.xy, moments.x, alpha_moments), blend_moments(old.zw, moments.z, alpha_moments));
             const vec2 surprise = vec2(luminance(first - old_first), luminance(second - old_second));
             half_difference = mix(half_difference, half_sign(px) * surprise, alpha);
-            first = old_first + alpha * (first - old_first);
-            second = old_second + alpha * (second - old_second);
+            first = blend_light(old_first, first, alpha);
+            second = blend_light(old_second, second, alpha);
         } else {
             moments = old;
             first = old_first;

@@ -1,4 +1,5 @@
-// SVGF over time: constancy, quality, determinism, feedback. Lengths of histories: lab/cases_history.cpp.
+// SVGF over time: constancy, quality, determinism, feedback. History lengths:
+// lab/cases_history.cpp.
 #include "lab/meshes.h"
 #include "lab/statistics.h"
 #include "tests/support/gl_test.h"
