@@ -160,7 +160,8 @@ void tiny_triangles_far_away(Findings& findings, Length length)
     const PackedScene packed = pack_scene(scene);
     const auto middle_of = [&](std::uint32_t slot) {
         const auto vertex = [&](std::size_t k) {
-            return glm::uintBitsToFloat(glm::uvec3(packed.geometry.triangles[3 * slot + k]));
+            return glm::uintBitsToFloat(
+                glm::uvec3(packed.geometry.triangles[std::size_t{3} * slot + k]));
         };
         return (vertex(0) + vertex(1) + vertex(2)) / 3.0F;
     };
