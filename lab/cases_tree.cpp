@@ -224,6 +224,27 @@ void deep_trees(Findings& findings, Length length)
     report(findings, "", differences(probe.by_tree(rays), probe.by_every_primitive(rays)));
 }
 
+/// Objects that share every triangle, of which each ray must see the same one.
+void duplicates_do_not_flicker(Findings& findings, Length length)
+{
+    const std::size_t count = length == Length::kLong ? 500'000 : 50'000;
+    Scene scene = scene_of(bumpy_sphere(60, 30));
+    scene.objects.push_back(scene.objects[0]);
+    scene.objects.push_back({"quad", 0, Quad{{-3, -1, -3}, {0, 0, 6}, {6, 0, 0}}});
+    scene.objects.push_back({"quad", 0, Quad{{-3, -1, -3}, {0, 0, 6}, {6, 0, 0}}});
+    const PackedScene packed = pack_scene(scene);
+    const DeviceScene on_device(scene);
+    const std::vector<TestRay> rays = random_rays(scene_bounds(scene), count, 15);
+    std::array<double, 4> seen{};
+    for (const ProbeHit& hit : RayProbe(on_device).by_tree(rays))
+        if (hit.met())
+            seen.at(packed.geometry.triangles[std::size_t{3} * hit.slot].w) += 1;
+    findings.at_least("rays that see the first of two meshes", seen[0], 1000);
+    findings.at_least("rays that see the first of two squares", seen[2], 1000);
+    findings.none("rays that see the second mesh", seen[1]);
+    findings.none("rays that see the second square", seen[3]);
+}
+
 void rays_without_a_number(Findings& findings, Length /*length*/)
 {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -271,6 +292,9 @@ constexpr Case kTreeCases[] = {
         "The deepest tree that coordinates allow fits the stack and meets what trying every sphere "
         "meets.",
         deep_trees},
+    {"15", "tree", "duplicates do not flicker", Layer::kFunction,
+        "Of things in the same place every ray sees the one that the scene names first.",
+        duplicates_do_not_flicker},
     {"18", "tree", "soups equal brute force", Layer::kFunction,
         "Random triangles, spheres and disks: the tree finds the same distances to the bit as "
         "trying them all.",
@@ -290,6 +314,7 @@ constexpr Guard kTreeGuards[] = {
         "1u"},
     {"stack_of_need", "13", "geometry/traverse.glsl", "uint stack[BVH_STACK_SIZE];",
         "uint stack[8];"},
+    {"first_named", "15", "geometry/traverse.glsl", "a.w < candidate.nearest", "false"},
     {"nearest_stays", "18", "geometry/traverse.glsl", "swap ? t_b : t_a;", "t_a;"},
 };
 

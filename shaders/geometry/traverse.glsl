@@ -79,8 +79,10 @@ void record(inout Hit hit, Traversal ray, float t, uint slot, vec2 barycentric)
 // A hit of something with holes, to be looked into before it counts.
 struct Candidate {
     bool waits;
+    uint nearest;  // object of the nearest triangle so far: of two in one place the first named is seen
 #ifdef FX_ALPHA
     Hit hit;
+    uint object;   // of a triangle
     uint material;
     vec3 normal;   // of a sphere
     float passed;  // along the ray, of the primitive being tested
@@ -111,12 +113,22 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout 
 #ifdef FX_TRIANGLES
     {
         const int at = place * TRIANGLE_TEXELS;
+        const uvec4 a = texelFetch(triangles, at);
         const uvec4 b = texelFetch(triangles, at + 1);
+        // As far as the nearest hit and with it, for ties.
+        const float limit = hit.slot == NO_HIT ? hit.t : uintBitsToFloat(floatBitsToUint(hit.t) + 1u);
         vec2 barycentric;
-        const float t = intersect_triangle(ray, uintBitsToFloat(texelFetch(triangles, at).xyz), uintBitsToFloat(b.xyz),
-            uintBitsToFloat(texelFetch(triangles, at + 2).xyz), hit.t, barycentric);
-        if (t > 0.0 && kind == BVH_TRIANGLES)
+        const float t = intersect_triangle(ray, uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz),
+            uintBitsToFloat(texelFetch(triangles, at + 2).xyz), limit, barycentric);
+        if (t > 0.0 && (t < hit.t || a.w < candidate.nearest) && kind == BVH_TRIANGLES) {
             accept(hit, candidate, ray, t, slot, barycentric, b.w);
+#ifdef FX_ALPHA
+            candidate.object = a.w;
+            candidate.nearest = candidate.waits ? candidate.nearest : a.w;
+#else
+            candidate.nearest = a.w;
+#endif
+        }
     }
 #endif
 #ifdef FX_SPHERES
@@ -132,6 +144,7 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout 
 #endif
         if (t > 0.0 && kind == BVH_SPHERES) {
             accept(hit, candidate, ray, t, slot, vec2(0.0), material);
+            candidate.nearest = candidate.waits ? candidate.nearest : 0u;
 #ifdef FX_ALPHA
             candidate.normal = normal;
 #endif
@@ -148,8 +161,10 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout 
 #else
         const uint material = 0u;
 #endif
-        if (t > 0.0 && kind == BVH_DISKS)
+        if (t > 0.0 && kind == BVH_DISKS) {
             accept(hit, candidate, ray, t, slot, vec2(0.0), material);
+            candidate.nearest = candidate.waits ? candidate.nearest : 0u;
+        }
     }
 #endif
 }
@@ -209,8 +224,10 @@ Hit traverse(Ray r, float t_max, const bool first_hit_ends)
     uint k = 0u;  // next primitive of the leaf `node`
     Candidate candidate;
     candidate.waits = false;
+    candidate.nearest = 0u;
 #ifdef FX_ALPHA
     candidate.hit = hit;
+    candidate.object = 0u;
     candidate.material = 0u;
     candidate.normal = vec3(0.0);
     candidate.passed = 0.0;
@@ -259,8 +276,11 @@ Hit traverse(Ray r, float t_max, const bool first_hit_ends)
         const bool covered = is_covered(candidate, ray);
         if (candidate.waits) {
             candidate.waits = false;
-            if (covered)
+            if (covered) {
                 hit = candidate.hit;
+                const bool triangle = (hit.slot & BVH_KIND_MASK) == BVH_TRIANGLES;
+                candidate.nearest = triangle ? candidate.object : 0u;
+            }
             // What lies behind the near side of a sphere is its far side.
             const bool again = !covered && candidate.passed == 0.0 && (candidate.hit.slot & BVH_KIND_MASK) == BVH_SPHERES;
             candidate.passed = again ? candidate.hit.t : 0.0;
