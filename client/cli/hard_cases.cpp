@@ -17,6 +17,7 @@ int run_laboratory(const CLI::App& command)
     std::vector<std::string> arguments = command.remaining();
     arguments.insert(arguments.begin(), "farlight hard-cases");
     std::vector<char*> pointers;
+    pointers.reserve(arguments.size() + 1);
     for (std::string& argument : arguments)
         pointers.push_back(argument.data());
     pointers.push_back(nullptr);
