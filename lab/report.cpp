@@ -69,6 +69,7 @@ body { font: 15px/1.45 system-ui, sans-serif; max-width: 75rem; margin: 2rem aut
 table { border-collapse: collapse; width: 100%; margin: 1rem 0 2rem; }
 th, td { text-align: left; vertical-align: top; padding: .25rem .6rem; border-bottom: 1px solid #d8d8d8; }
 td.ok { color: #00674d; } td.FAIL { color: #a03000; font-weight: bold; }
+td:nth-last-child(2) { white-space: nowrap; }
 code { font-size: 13px; }
 </style>
 )";

@@ -6,26 +6,25 @@
 namespace farlight::client {
 namespace {
 
-/// Of the reference, against the most that a measured frame has: its own error is then 1/128 of the
-/// smallest that raw samples have. Filtered frames may be four times as good and still have 5 times
-/// the reference's deviation.
-constexpr int kReferenceSamplesFactor = 128;
-
 struct Effort {
     int history, flip_seeds, rounds, response_seeds, still_frames, after, effect_frames;
     int motion_frames;
+    /// Samples of the reference over the most that a measured frame has: its own error is one over
+    /// that of the smallest that raw samples have. With 128, filtered frames may be five times as
+    /// good and have 5 times the reference's deviation, with 256 ten times.
+    int reference_factor;
 };
 
 /// With svgf_alpha at 0.2, 12 frames leave 0.8^12 = 7 % of the first, 32 frames 0.1 %.
 Effort effort_of(GridSize grid)
 {
     switch (grid) {
-    case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 2, 4};
-    case GridSize::kClassic:
-    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 4, 6};
+    case GridSize::kTiny: return {4, 1, 2, 1, 8, 8, 2, 4, 128};
+    case GridSize::kClassic: return {12, 2, 4, 2, 32, 24, 4, 6, 256};
+    case GridSize::kQuick: return {12, 2, 4, 2, 32, 24, 4, 6, 128};
     case GridSize::kNormal: break;
     }
-    return {32, 3, 16, 4, 64, 32, 12, 8};
+    return {32, 3, 16, 4, 64, 32, 12, 8, 256};
 }
 
 /// Settings of everything that is drawn: time stands still, pixels are looked at in their middles
@@ -77,7 +76,7 @@ Plans plans_for(const Grid& grid, const SweepExtent& extent)
     Plans plans;
     plans.reference = {.samples = extent.reference_samples > 0
             ? extent.reference_samples
-            : kReferenceSamplesFactor * most_samples(grid),
+            : effort.reference_factor * most_samples(grid),
         .batches = 16,
         .settings = fixed};
     plans.step_reference = plans.reference;

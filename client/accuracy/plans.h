@@ -12,7 +12,8 @@ namespace farlight::client {
 struct SweepExtent {
     GridSize grid = GridSize::kNormal;
     int seeds = 10;
-    int reference_samples = 0;  ///< 0: 128 times the most that a measured frame has.
+    int reference_samples =
+        0;  ///< 0: 128 times the most that a measured frame has, 256 in classic and normal grids.
     double degrees_per_frame = 0;  ///< The camera's turn while histories fill; 0: it rests.
 };
 

@@ -140,7 +140,8 @@ Command add_accuracy(CLI::App& farlight)
         ->check(CLI::Range(3, 1000))
         ->capture_default_str();
     app->add_option("--reference-samples", options->extent.reference_samples,
-           "of the reference, a pixel; 128 times the most of a measured frame if absent")
+           "of the reference, a pixel; if absent 128 times the most of a measured frame, 256 in "
+           "classic and normal grids")
         ->check(CLI::Range(32, 10'000'000));
     app->add_option("--orbit", options->extent.degrees_per_frame,
            "degrees that the camera turns a frame while histories fill; 0: it rests")

@@ -28,7 +28,7 @@ struct Signals {
 constexpr int kSegmentsPerDispatch = 256;
 /// Where surfaces have holes every one on a ray's way takes some rounds: this leaves 2048. A single
 /// sample may have up to 128 segments, two paths of 64 in fog: the longest there are get 512,
-/// enough for 64 holes on each ray.
+/// enough for 48 holes on each ray.
 constexpr int kSegmentsThroughHoles = 32;
 
 /// Follows from the scene, not from the program: sums in another order are other bits.
