@@ -131,8 +131,8 @@ test("unlimited goes on to the last sample the server takes, and back", async ()
     const port = server.port;
     await server.kill();
     await serve(beginning, port);
-    await until(page, () => window.farlight.connected);
-    await until(page, () => document.querySelector("#goal-kinds [value=unlimited]").checked); // another session, the same wish
+    await untilReceived("ack"); // of another session's frame: the page may not have seen yet that the one before has ended
+    await until(page, () => document.querySelector("#goal-kinds [value=unlimited]").checked); // the same wish
     await choose("as_set");
     assert.equal((await untilReceived("set", ({ key, value }) => key === "still_samples" && value !== 65536)).value, 24);
     await until(page, () => window.farlight.lastHeader.flags.converged);
