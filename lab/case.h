@@ -2,9 +2,12 @@
 // and the bound that this must keep.
 #pragma once
 
+#include <concepts>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace farlight::lab {
@@ -17,6 +20,12 @@ enum class Layer : std::uint8_t {
     kServer,  ///< A server over a real WebSocket.
 };
 std::string_view to_text(Layer layer);
+
+/// The one farther off. NaN is infinitely far: std::max would drop it.
+template <std::floating_point T> T farther(T most, std::type_identity_t<T> off)
+{
+    return off <= most ? most : off > most ? off : std::numeric_limits<T>::infinity();
+}
 
 /// One number that a case measured and the bound that it must keep.
 struct Measurement {

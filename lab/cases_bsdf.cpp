@@ -87,8 +87,8 @@ void values_at_the_edges(Findings& findings, Length /*length*/)
     float length_off = 0;
     for (const glm::vec4& r : evaluate({kBsdfHead, kEdges, {}}, edges())) {
         broken += r.x;
-        heaviest = std::max(heaviest, r.y);
-        length_off = std::max(length_off, r.z);
+        heaviest = farther(heaviest, r.y);
+        length_off = farther(length_off, r.z);
     }
     findings.none("values that are negative or not finite", static_cast<double>(broken));
     findings.at_most("largest weight of a sample", static_cast<double>(heaviest), 4);
@@ -131,7 +131,7 @@ void albedo_of_ggx(Findings& findings, Length /*length*/)
     const std::vector<glm::vec4> found = evaluate({kBsdfHead, kAlbedo, {}}, rows);
     double off = 0;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        off = std::max(off, std::abs(static_cast<double>(found[i].x) - kAlbedos[i / 5][i % 5]));
+        off = farther(off, std::abs(static_cast<double>(found[i].x) - kAlbedos[i / 5][i % 5]));
     findings.at_most("albedo off the table of 25", off, 4e-4);  // four digits, and the lattice
 }
 
@@ -152,7 +152,7 @@ void reciprocity(Findings& findings, Length /*length*/)
 )",
                                            {}},
              rows))
-        off = std::max(off, std::abs(static_cast<double>(r.x) / static_cast<double>(r.y) - 1));
+        off = farther(off, std::abs(static_cast<double>(r.x) / static_cast<double>(r.y) - 1));
     findings.at_most("f(a, b) / f(b, a) - 1", off, 1e-4);
 }
 
@@ -193,7 +193,8 @@ void fresnel(Findings& findings, Length /*length*/)
         const double below = fresnel_oracle(c - 1e-7, eta);
         const double above = fresnel_oracle(c + 1e-7, eta);
         if (c > 0)
-            off = std::max({off, value - std::max(below, above), std::min(below, above) - value});
+            off = farther(
+                off, farther(value - std::max(below, above), std::min(below, above) - value));
     }
     findings.none("reflectances or refracted cosines outside [0, 1], of 24006", outside);
     findings.at_most("off Fresnel's equations", off, 1e-6);
@@ -222,9 +223,9 @@ void heuristic_of_extremes(Findings& findings, Length /*length*/)
         const auto weight = static_cast<double>(found[i].x);
         outside += weight >= 0 && weight <= 1 ? 0 : 1;
         const double expected = p > 0 ? p * p / (p * p + q * q) : 0;
-        off = std::max(off, std::abs(weight - expected));
+        off = farther(off, std::abs(weight - expected));
         if (p > 0 && q > 0)
-            off = std::max(off, std::abs(weight + static_cast<double>(found[i].y) - 1));
+            off = farther(off, std::abs(weight + static_cast<double>(found[i].y) - 1));
     }
     findings.none("weights outside [0, 1], of 5931", outside);
     findings.at_most("off p^2 / (p^2 + q^2), or pairs off 1", off, 1e-6);

@@ -26,12 +26,6 @@ Texels texels_of(const std::function<glm::vec3(int x, int y)>& value)
     return texels;
 }
 
-/// NaN counts as infinitely far.
-double farther(double most, double off)
-{
-    return off <= most ? most : std::isnan(off) ? INFINITY : off;
-}
-
 /// A mean and a variance of luminance in 32 bits over time: E[x^2] - E[x]^2 of them is less than
 /// nothing in a quarter of the frames where they hardly vary. Welford 1962 in double precision,
 /// with the same weights, is the oracle.
@@ -119,7 +113,7 @@ void a_flare_stays_a_flare(Findings& findings, Length /*length*/)
             const glm::dvec3 flare(picture[place_of(20, 11)]);
             if (frame >= 3 && flare.x > 1e4)
                 hue = farther(hue,
-                    std::max(std::abs(flare.y / flare.x / 0.5 - 1),
+                    farther(std::abs(flare.y / flare.x / 0.5 - 1),
                         std::abs(flare.z / flare.x / 0.25 - 1)));
         }
         shortest = std::min(shortest, filter.shortest_history());

@@ -235,8 +235,7 @@ void strange_cameras(Findings& findings, Length /*length*/)
                  glm::dvec2(glm::dot(basis.up, basis.forward), 0),
                  glm::dvec2(glm::length(basis.right), 1), glm::dvec2(glm::length(basis.up), 1),
                  glm::dvec2(glm::length(basis.forward), 1)}) {
-            const double by = std::abs(off.x - off.y);
-            skew = by <= skew ? skew : std::isnan(by) ? INFINITY : by;
+            skew = farther(skew, std::abs(off.x - off.y));
         }
         const RenderedFrame frame =
             view.render(request_of(on_device.scene, pose, DebugView::kFinal));

@@ -55,10 +55,7 @@ double off_constant(const Image& image, bool without_poisoned)
             for (int c = 0; c < 3; ++c) {
                 if (without_poisoned && x == kPoisonedX && y == kPoisonedY)
                     continue;
-                const double off = std::abs(pixel(image, x, y)[c] / kFurnaceRadiance - 1);
-                most = off <= most ? most : off;
-                if (std::isnan(off))
-                    return INFINITY;
+                most = farther(most, std::abs(pixel(image, x, y)[c] / kFurnaceRadiance - 1));
             }
     return most;
 }
@@ -78,7 +75,7 @@ void look_at(PoisonSeen& seen, View& view, RenderRequest& request, const Poisone
     request.camera.position.x += 0.01;
     request.settings.seed = code;
     const RenderedFrame poisoned = view.render(request);
-    seen.others = std::max(seen.others, off_constant(poisoned.image, true));
+    seen.others = farther(seen.others, off_constant(poisoned.image, true));
     const glm::vec3 itself = pixel(poisoned.image, kPoisonedX, kPoisonedY);
     const double least = stage.filled ? (1 - 1e-5) * kFurnaceRadiance : 0;
     seen.itself += itself.x >= least && itself.x <= (1 + 1e-5) * kFurnaceRadiance ? 0 : 1;
@@ -87,7 +84,7 @@ void look_at(PoisonSeen& seen, View& view, RenderRequest& request, const Poisone
     request.settings.seed = 0;
     request.reset_history = false;
     const RenderedFrame later = view.render(request);
-    seen.later = std::max(seen.later, off_constant(later.image, false));
+    seen.later = farther(seen.later, off_constant(later.image, false));
     seen.counted_later += later.nonfinite_count == 0 ? 0 : 1;
 }
 
@@ -228,8 +225,7 @@ void poisoned_mean(Findings& findings, Length /*length*/)
             }
             const glm::vec4 mean = bench.read("prev_mean")[0];
             for (int c = 0; c < 3; ++c) {
-                const double off = std::abs(static_cast<double>(mean[c]) / 0.7F - 1);
-                most = off <= most ? most : std::isnan(off) ? INFINITY : off;
+                most = farther(most, std::abs(static_cast<double>(mean[c]) / 0.7F - 1));
             }
             most = std::isfinite(mean.w) ? most : INFINITY;
         }

@@ -126,9 +126,10 @@ void triangle_hits_are_exact(Findings& findings, Length length)
             met += meets ? 1 : 0;
             if (!meets || !(found[i].x > 0))
                 continue;
-            t_off = std::max(t_off, std::abs(found[i].x - exact.t) / unit);
-            weights_off = std::max({weights_off, std::abs(found[i].y - u) * exact.altitude / unit,
-                std::abs(found[i].z - v) * exact.altitude / unit});
+            t_off = farther(t_off, std::abs(found[i].x - exact.t) / unit);
+            weights_off = farther(weights_off,
+                farther(std::abs(found[i].y - u), std::abs(found[i].z - v)) * exact.altitude
+                    / unit);
         }
         char name[64];
         std::snprintf(name, sizeof name, "%g m away, %g m large: ", distance, size);
@@ -233,7 +234,7 @@ SphereErrors sphere_errors(const std::vector<Query>& queries)
             continue;
         errors.wrong += (found[i].x > 0) == (exact.t > 0) ? 0 : 1;
         if (found[i].x > 0 && exact.t > 0)
-            errors.off = std::max(errors.off, std::abs(found[i].x - exact.t) * exact.cosine / unit);
+            errors.off = farther(errors.off, std::abs(found[i].x - exact.t) * exact.cosine / unit);
     }
     errors.wrong /= static_cast<double>(queries.size());
     return errors;
@@ -290,7 +291,7 @@ void spheres_from_inside(Findings& findings, Length length)
         double off = 0;
         for (std::size_t i = 0; i < count; ++i) {
             missed += found[i].x > 0 ? 0 : 1;
-            off = std::max(
+            off = farther(
                 off, std::abs(found[i].x - exact_sphere_hit(queries[i]).t) / (kUlp * 2.0 * radius));
         }
         char name[32];

@@ -66,9 +66,9 @@ double largest_correlation(const std::vector<glm::vec4>& values)
     const std::span<const glm::vec4> all(values);
     for (int i = 0; i < 4; ++i) {
         for (int j = i + 1; j < 4; ++j)
-            largest = std::max(largest, correlation(all, all, i, j));
+            largest = farther(largest, correlation(all, all, i, j));
         for (const std::size_t step : {1U, 4U, 128U, 4096U})
-            largest = std::max(
+            largest = farther(
                 largest, correlation(all.first(all.size() - step), all.subspan(step), i, i));
     }
     return largest;
@@ -93,8 +93,8 @@ void numbers_are_uniform_and_independent(Findings& findings, Length /*length*/)
             }
         }
         mean_off =
-            std::max(mean_off, std::abs(sum / (4.0 * static_cast<double>(keys.size())) - 0.5));
-        correlated = std::max(correlated, largest_correlation(values));
+            farther(mean_off, std::abs(sum / (4.0 * static_cast<double>(keys.size())) - 0.5));
+        correlated = farther(correlated, largest_correlation(values));
     }
     findings.none("numbers unlike the CPU's, of 786432", wrong_bits);
     findings.none("numbers outside [0, 1)", outside);

@@ -137,7 +137,7 @@ void white_things_vanish(Findings& findings, Length length)
         const RenderedFrame frame = view.render(linear_request(scene.scene, kWide, s));
         double off = 0;
         for (const float value : values_of(frame.image))
-            off = std::max(off, static_cast<double>(std::abs(value - 1)));
+            off = farther(off, static_cast<double>(std::abs(value - 1)));
         findings.at_most(std::string(placed.name) + ": farthest from the sky", off, 1e-4);
         findings.none(std::string(placed.name) + ": non-finite values", frame.nonfinite_count);
     }

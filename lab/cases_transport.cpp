@@ -52,12 +52,8 @@ Rendering averaged(int samples, bool light_sampling, int max_depth)
 double largest_off(const Image& image, double expected)
 {
     double off = 0;
-    for (const float value : values_of(image)) {
-        const double here = std::abs(static_cast<double>(value) - expected);
-        off = std::isnan(here) ? here : std::max(off, here);
-        if (std::isnan(off))
-            return off;
-    }
+    for (const float value : values_of(image))
+        off = farther(off, std::abs(static_cast<double>(value) - expected));
     return off;
 }
 
@@ -92,7 +88,7 @@ void furnace_without_light_sampling(Findings& findings, Length /*length*/)
     for (const Furnace& f : kFurnaces) {
         Rendering how = averaged(1, false, f.max_depth);
         how.frames = 1;
-        off = std::max(off, largest_off(rendered(furnace(f.albedo), how), radiance_in(f)));
+        off = farther(off, largest_off(rendered(furnace(f.albedo), how), radiance_in(f)));
     }
     findings.at_most("radiance of any pixel off the series", off, 1e-5);
 }
@@ -101,7 +97,7 @@ void furnace_with_light_sampling(Findings& findings, Length /*length*/)
 {
     double off = 0;
     for (const Furnace& f : kFurnaces)
-        off = std::max(off,
+        off = farther(off,
             standard_errors_off(
                 rendered(furnace(f.albedo), averaged(64, true, f.max_depth)), radiance_in(f)));
     findings.at_most("mean off the series [standard errors]", off, 5);
@@ -113,7 +109,7 @@ void roulette(Findings& findings, Length /*length*/)
     for (const Furnace& f : kFurnaces) {
         Rendering how = averaged(64, false, f.max_depth);
         how.settings.roulette_depth = 2;
-        off = std::max(off, standard_errors_off(rendered(furnace(f.albedo), how), radiance_in(f)));
+        off = farther(off, standard_errors_off(rendered(furnace(f.albedo), how), radiance_in(f)));
     }
     findings.at_most("mean off the series [standard errors]", off, 5);
 }
@@ -167,7 +163,7 @@ void tiny_bright_lamp(Findings& findings, Length /*length*/)
     const Image image = rendered(scene, averaged(1, true, 2));
     float brightest = 0;
     for (const float value : values_of(image))
-        brightest = std::max(brightest, value);
+        brightest = farther(brightest, value);
     // Within half a degree of straight below, cos^4 is 1 to 2e-4.
     findings.at_most(
         "relative error of the mean", std::abs(mean_of(image).mean / expected - 1), 5e-4);
@@ -230,7 +226,7 @@ void fog_of_any_density(Findings& findings, Length /*length*/)
     double off = 0;
     for (const float sigma : {1e-9F, 0.1F, 1.0F, 20.0F, 1e9F}) {
         scene.medium = {"fog", glm::vec3(sigma), glm::vec3(0), 0};
-        off = std::max(
+        off = farther(
             off, largest_off(rendered(scene, how), 2 * std::exp(-3 * static_cast<double>(sigma))));
     }
     findings.at_most("off 2 e^(-3 sigma), sigma 1e-9 to 1e9", off, 2e-5);

@@ -183,8 +183,8 @@ void sliver_faces_whoever_looks(Findings& findings, Length /*length*/)
         double darkest = 1;
         for (int x = 0; x < kRows.width; ++x) {
             const glm::vec3 normal = pixel(normals.image, x, 4);
-            off = std::max(off, std::abs(pixel(depth.image, x, 4).x / 2e-13 - 1));
-            not_unit = std::max(not_unit,
+            off = farther(off, std::abs(pixel(depth.image, x, 4).x / 2e-13 - 1));
+            not_unit = farther(not_unit,
                 static_cast<double>(normal.z > 0 ? std::abs(glm::length(normal) - 1) : 1.0F));
             darkest = std::min(darkest, static_cast<double>(pixel(shown.image, x, 4).x));
         }
