@@ -1,6 +1,7 @@
 // Accumulation and precision: what many frames make of small errors.
 #include "lab/groups.h"
 #include "lab/pass_bench.h"
+#include "server/passes/accumulate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,9 +15,9 @@ constexpr Extent kOnePixel{1, 1};
 template <typename Value> glm::vec4 mean_of_frames(int frames, const Value& value)
 {
     PassBench bench("accumulate/accumulate.comp", {}, kOnePixel);
-    for (const char* name :
-        {"in_radiance", "prev_mean", "prev_variance", "out_mean", "out_variance"})
-        bench.fill(name, GL_RGBA32F, glm::vec4(0));
+    bench.fill("in_radiance", GL_RGBA32F, glm::vec4(0));
+    for (const char* name : {"prev_mean", "prev_variance", "out_mean", "out_variance"})
+        bench.fill(name, mean_format(), glm::vec4(0));
     for (int i = 1; i <= frames; ++i) {
         bench.set_pixel("in_radiance", 0, 0, glm::vec4(value(i), 1));
         bench.constant("frame_count", i);
@@ -62,6 +63,7 @@ constexpr Case kAccumulationCases[] = {
 constexpr Guard kAccumulationGuards[] = {
     {"running_mean", "49", "accumulate/accumulate.comp", "mean = old + (radiance - old) / count;",
         "mean = (old * (count - 1.0) + radiance) / count;"},
+    {"means_in_32_bits", "49b"},
 };
 
 }  // namespace

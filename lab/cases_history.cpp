@@ -288,6 +288,7 @@ constexpr Guard kHistoryGuards[] = {
         "uintBitsToFloat(surface.x);\n    Past p;\n    p.exists = true;"},
     {"plane_distance", "63", "svgf/past.glsl", "plane_distance <= p.tolerance",
         "plane_distance <= 1e6 * p.tolerance"},
+    {"up_along_the_view", "63b"},
     {"least_of_taps", "62 64", "svgf/temporal.comp",
         "sum.least_length = min(sum.least_length, tap_length);", "sum.least_length = tap_length;"},
 };

@@ -95,8 +95,11 @@ void unused_things(Findings& findings, Length /*length*/)
     mirror.roughness = 0;
     mirror.transmission = 0.5F;
     more.materials.push_back(mirror);
-    const auto material = static_cast<std::uint32_t>(0);
-    more.objects.push_back({"outside", material, Sphere{{0, 0, -9}, 0.5}});
+    // Of the mirror, but there is nothing to draw of it.
+    more.meshes.push_back({"nothing", {}, {}, {}});
+    more.objects.push_back({"nothing", static_cast<std::uint32_t>(more.materials.size() - 1),
+        MeshInstance{static_cast<std::uint32_t>(more.meshes.size() - 1)}});
+    more.objects.push_back({"outside", 0, Sphere{{0, 0, -9}, 0.5}});
     const DeviceScene before(scene);
     const DeviceScene after(more);
     findings.none("effects that an unused material calls for",
@@ -193,14 +196,15 @@ constexpr Case kLawCases[] = {
         "Radiance times 2^k makes the denoised, moving picture times 2^k, bit by bit.",
         brighter_lamps},
     {"M8", "laws", "unused things", Layer::kSequence,
-        "An unused material and something outside a closed room change no bit and call for "
-        "nothing.",
+        "An unused material, an object of it without a triangle and something outside a closed "
+        "room change no bit and call for nothing.",
         unused_things},
 };
 
 constexpr Guard kLawGuards[] = {
     {"basis_sign", "M3", "lib/sampling.glsl", "const float s = n.z >= 0.0 ? 1.0 : -1.0;",
         "const float s = 1.0;"},
+    {"only_the_drawn_calls", "M8"},
     {"relative_luminance_floor", "M6", "svgf/atrous.comp", "+ 1e-6 * luminance_p + 1e-37)",
         "+ 1e-6)"},
     {"area_in_light_density", "M5", "lights/area.glsl",

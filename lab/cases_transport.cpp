@@ -192,13 +192,22 @@ void lamps_that_are_none(Findings& findings, Length /*length*/)
     Mesh sliver{"sliver", {{9, 9, 9}, {10, 10, 10}, {11, 11, 11}}, {}, {{0, 1, 2}}};
     more.meshes.push_back(sliver);
     more.objects.push_back({"no area", 3, MeshInstance{}});
+    // Off now, on later: it has a place among the lights.
+    more.materials.push_back({"lamp that is off", glm::vec3(0), glm::vec3(1e6F)});
+    more.objects.push_back({"off", 4, Quad{{-9, 9, -9}, {1, 0, 0}, {0, 0, 1}}});
+    Track track;
+    track.target = Track::Target::kMaterialEmission;
+    track.index = 4;
+    track.times = {0, 1};
+    track.values = {0, 1};
+    more.animation.tracks.push_back(track);
     const Rendering how = averaged(4, true, 4);
     const std::vector<float> without = values_of(rendered(scene, how));
     const std::vector<float> with = values_of(rendered(more, how));
     double unlike = 0;
     for (std::size_t i = 0; i < with.size(); ++i)
         unlike += with[i] == without[i] ? 0 : 1;
-    findings.none("values that lamps without power or area change", unlike);
+    findings.none("values that such lamps change", unlike);
 }
 
 void lamp_from_behind(Findings& findings, Length /*length*/)
@@ -249,7 +258,7 @@ constexpr Case kTransportCases[] = {
     {"37", "transport", "lamp from behind", Layer::kPicture,
         "A one-sided lamp gives exactly nothing behind and in its plane.", lamp_from_behind},
     {"38", "transport", "lamps that are none", Layer::kPicture,
-        "Lamps without power or area change no bit.", lamps_that_are_none},
+        "Lamps without power or area, or that are off, change no bit.", lamps_that_are_none},
     {"40", "transport", "tiny bright lamp", Layer::kPicture,
         "A lamp of radius 1e-4 and radiance 1e8 lights as the closed form says, without fireflies.",
         tiny_bright_lamp},
@@ -276,6 +285,7 @@ constexpr Guard kTransportGuards[] = {
         "light.emits_both_sides || dot(normal, way) < 0.0 ? light.radiance : vec3(0.0)",
         "light.radiance"},
     {"roulette_weight", "41", "path_trace/path_trace.comp", "next /= survive;", ""},
+    {"chosen_by_power", "38"},
     {"fog_ahead", "45", "media/fog.glsl", "clamp(middle - half_chord, 0.0, t_max)",
         "middle - half_chord"},
     {"cone_without_cancellation", "40", "lights/area.glsl",

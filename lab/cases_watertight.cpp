@@ -257,6 +257,7 @@ constexpr Guard kWatertightGuards[] = {
         "const bool outside = (u <= 0.0 || v <= 0.0 || w <= 0.0) && (u >= 0.0 || v >= 0.0 || w >= "
         "0.0);"},
     {"widened_boxes", "1", "geometry/traverse.glsl", " * 1.0000004;", ";"},
+    {"repair_drops_no_area", "3b"},
     {"sliver_normal", "3", "geometry/surface.glsl",
         "dot(across, across) > 0.0 ? across : -ray.direction", "across"},
 };

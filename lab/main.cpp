@@ -82,8 +82,8 @@ int list()
     for (const Case& one : all_cases())
         std::cout << one.id << "  " << one.group << "  " << one.name << ": " << one.claim << "\n";
     for (const Guard& guard : all_guards())
-        std::cout << "guard " << guard.name << " in " << guard.file << " keeps " << guard.keeps
-                  << "\n";
+        std::cout << "guard " << guard.name << " in " << (guard.in_host() ? "C++" : guard.file)
+                  << " keeps " << guard.keeps << "\n";
     return kDone;
 }
 
@@ -155,6 +155,7 @@ std::string summary_of(const Sheet& sheet)
 
 int run(const Options& options)
 {
+    static_cast<void>(all_guards());  // throws where rows and C++ disagree
     if (options.list)
         return list();
     const std::vector<Case> cases = chosen_cases(options);

@@ -2,9 +2,19 @@
 // it.
 #pragma once
 
+#include "server/host_guard.h"
 #include "server/render/frame_graph.h"
 
 namespace farlight {
+
+inline const HostGuard means_in_32_bits("means_in_32_bits");
+
+/// Of a running mean. In 16 bits it stops following after some thousand frames: what a frame adds
+/// is below its rounding.
+inline GLenum mean_format()
+{
+    return means_in_32_bits ? GL_RGBA32F : GL_RGBA16F;
+}
 
 /// Contents: shaders/accumulate/accumulate.comp.
 struct Mean {
@@ -23,8 +33,8 @@ enum class Reference : std::uint8_t {
 inline Mean add_accumulate(
     FrameGraph& graph, TextureHandle raw, int frame_count, Reference reference)
 {
-    const History mean = graph.history("accumulate.mean", GL_RGBA32F);
-    const History variance = graph.history("accumulate.variance", GL_RGBA32F);
+    const History mean = graph.history("accumulate.mean", mean_format());
+    const History variance = graph.history("accumulate.variance", mean_format());
     Pass& pass = graph.add_pass("accumulate", "accumulate/accumulate.comp")
                      .read("in_radiance", raw)
                      .read("prev_mean", mean.previous)
@@ -34,7 +44,7 @@ inline Mean add_accumulate(
                      .constant("frame_count", mean.valid && variance.valid ? frame_count : 1);
     if (reference == Reference::kAbsent)
         return {mean.current, {}};
-    const History older = graph.history("accumulate.reference", GL_RGBA32F);
+    const History older = graph.history("accumulate.reference", mean_format());
     pass.define({{"WITH_REFERENCE", "1"}})
         .read("prev_reference", older.previous)
         .write("out_reference", older.current)

@@ -1,10 +1,14 @@
 // Poses in double precision to ray frames in single.
 #include "server/render/camera.h"
 
+#include "server/host_guard.h"
+
 #include <cmath>
 
 namespace farlight {
 namespace {
+
+const HostGuard up_along_the_view("up_along_the_view");
 
 /// The unit vector along v, or `fallback` when v has no direction.
 glm::dvec3 direction_or(const glm::dvec3& v, const glm::dvec3& fallback)
@@ -29,8 +33,9 @@ CameraBasis camera_basis(const CameraPose& pose)
     basis.forward = direction_or(pose.target - pose.position, {0, 0, -1});
     const glm::dvec3 up = direction_or(pose.up, {0, 1, 0});
     glm::dvec3 right = glm::cross(basis.forward, up);
-    if (glm::length(right)
-        < 1e-6)  // sine of the angle: closer than this, rounding would choose the roll
+    if (up_along_the_view
+        && glm::length(right)
+            < 1e-6)  // sine of the angle: closer than this, rounding would choose the roll
         right = glm::cross(basis.forward, least_aligned_axis(basis.forward));
     basis.right = glm::normalize(right);
     basis.up = glm::cross(basis.right, basis.forward);

@@ -1,6 +1,7 @@
 // Reasons, from what shapes are made of down to the camera. Each finds the first thing of its kind.
 #include "server/scene/effect_reasons.h"
 
+#include "server/host_guard.h"
 #include "server/scene/material_response.h"
 #include "server/scene/textures.h"
 
@@ -9,6 +10,8 @@
 
 namespace farlight::effect_reasons {
 namespace {
+
+const HostGuard only_the_drawn_calls("only_the_drawn_calls");
 
 /// Shortest of the numbers that people read: "0.02", "1e+06".
 std::string shown(double value)
@@ -33,7 +36,7 @@ template <typename Wanted>
 const Object* first_object(const Scene& scene, const SceneContent& content, const Wanted& wanted)
 {
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
-        if (content.is_drawn(i) && wanted(scene.objects[i]))
+        if ((content.is_drawn(i) || !only_the_drawn_calls) && wanted(scene.objects[i]))
             return &scene.objects[i];
     return nullptr;
 }

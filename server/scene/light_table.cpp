@@ -1,6 +1,7 @@
 // Posing lights, their power, the alias table, packing.
 #include "server/scene/light_table.h"
 
+#include "server/host_guard.h"
 #include "server/scene/environment.h"
 #include "server/scene/light_textures.h"
 
@@ -9,6 +10,8 @@
 
 namespace farlight {
 namespace {
+
+const HostGuard chosen_by_power("chosen_by_power");
 
 float factor(std::span<const float> factors, std::size_t index)
 {
@@ -100,11 +103,11 @@ void LightTable::choose_by_power()
     double total = 0;
     for (const Light& light : lights_) {
         assert(light.power >= 0 && std::isfinite(light.power));
-        weights.push_back(light.power);
-        total += light.power;
+        weights.push_back(chosen_by_power ? light.power : 1);
+        total += weights.back();
     }
-    for (Light& light : lights_)
-        light.pmf = total > 0 ? static_cast<float>(light.power / total) : 0;
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        lights_[i].pmf = total > 0 ? static_cast<float>(weights[i] / total) : 0;
     trails_.assign(lights_.size(), 0);
     pack(alias_table(weights));
 }

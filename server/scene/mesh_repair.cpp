@@ -1,6 +1,7 @@
 // Repairs of a mesh, counted.
 #include "server/scene/mesh_repair.h"
 
+#include "server/host_guard.h"
 #include "server/scene/mesh_vertices.h"
 
 #include <algorithm>
@@ -12,6 +13,8 @@
 namespace farlight {
 
 namespace {
+
+const HostGuard repair_drops_no_area("repair_drops_no_area");
 
 /// Twice the area times the unit normal; zero where the corners lie on a line as far as float
 /// positions can tell.
@@ -182,6 +185,7 @@ MeshRepairs repair_mesh(Mesh& mesh)
 {
     assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
     MeshRepairs repairs;
+    const bool drops_no_area(repair_drops_no_area);
     std::vector<glm::uvec3> kept;
     kept.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles) {
@@ -189,7 +193,7 @@ MeshRepairs repair_mesh(Mesh& mesh)
         if (!is_bounded(mesh.positions[triangle.x]) || !is_bounded(mesh.positions[triangle.y])
             || !is_bounded(mesh.positions[triangle.z]))
             ++repairs.unbounded_triangles;
-        else if (area_vector(mesh, triangle) == glm::dvec3(0))
+        else if (drops_no_area && area_vector(mesh, triangle) == glm::dvec3(0))
             ++repairs.zero_area_triangles;
         else
             kept.push_back(triangle);
