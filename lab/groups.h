@@ -21,6 +21,7 @@ Group light_group();
 Group poison_group();
 Group precision_group();
 Group random_group();
+Group samplers_group();
 Group scale_group();
 Group transport_group();
 Group tree_group();
@@ -30,7 +31,7 @@ inline std::vector<Group> all_groups()
 {
     return {accumulation_group(), bsdf_group(), display_group(), filter_group(), history_group(),
         laws_group(), light_group(), poison_group(), precision_group(), random_group(),
-        scale_group(), transport_group(), tree_group(), watertight_group()};
+        samplers_group(), scale_group(), transport_group(), tree_group(), watertight_group()};
 }
 
 }  // namespace farlight::lab

@@ -3,10 +3,10 @@
 //
 // Seeds are fixed; the bounds are 5 standard errors, which a fresh seed would exceed once in 1.7
 // million, and what the albedo tables are interpolated to, 2e-3 a bounce.
+#include "lab/lossless_materials.h"
 #include "lab/meshes.h"
 #include "lab/statistics.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/lossless_materials.h"
 
 #include <functional>
 #include <random>

@@ -3,9 +3,9 @@
 //
 // Statistical tests use fixed seeds, so they are deterministic; the bounds are 5 standard errors,
 // which a fresh seed would exceed by chance once in 1.7 million.
+#include "lab/lossless_materials.h"
 #include "lab/statistics.h"
 #include "tests/support/gl_test.h"
-#include "tests/support/lossless_materials.h"
 
 namespace farlight {
 namespace {

@@ -1,7 +1,7 @@
 // Each lobe at all angles, mixtures, and normals that lean.
-#include "tests/shaders/bsdf_cases.h"
+#include "lab/bsdf_cases.h"
 
-#include "tests/support/lossless_materials.h"
+#include "lab/lossless_materials.h"
 
 #include <cmath>
 #include <functional>
@@ -24,6 +24,20 @@ std::vector<BsdfCase> at_all_angles(const char* name,
             list.push_back(
                 {name + at, material(roughness), cosine, inside, {}, {}, true, tolerance});
         }
+    return list;
+}
+
+/// From inside of glass: besides, just before and just beyond where all light is reflected. There
+/// the table of albedos bends within one of its cells.
+std::vector<BsdfCase> glass_inside()
+{
+    const auto glass = [](float roughness) { return lossless::glass(roughness); };
+    std::vector<BsdfCase> list = at_all_angles("Glass", glass, 2e-3, true);
+    for (const float roughness : {0.0F, 0.1F, 0.3F, 0.6F})
+        for (const double off : {-1e-3, 1e-3})
+            list.push_back({"GlassR" + std::to_string(std::lround(roughness * 1000))
+                    + (off < 0 ? "BeyondTotal" : "BeforeTotal"),
+                glass(roughness), std::sqrt(1 - 1 / 2.25) + off, true, {}, {}, true, 8e-3});
     return list;
 }
 
@@ -80,6 +94,42 @@ std::vector<BsdfCase> leaning()
 
 }  // namespace
 
+std::vector<BsdfCase> bsdfs_of_rare_lobes()
+{
+    std::vector<BsdfCase> list;
+    for (const float rare : {1e-2F, 1e-4F, 1e-7F, 1e-30F, 1e-42F})
+        for (const double cosine : {1.0, 0.3, 1e-3}) {
+            const std::string at = "1e" + std::to_string(std::lround(std::log10(rare))) + "C"
+                + std::to_string(std::lround(cosine * 1000));
+            const auto add = [&](const char* name, const Material& m, bool inside = false) {
+                list.push_back({name + at, m, cosine, inside});
+            };
+            Material m = lossless::white(rare, 0.3F);
+            add("RareMetal", m);
+            m.metallic = 1 - std::max(rare, 1e-7F);
+            add("RarePaint", m);
+            m = lossless::plastic(0.2F);
+            m.specular = rare;
+            add("RareGloss", m);
+            m.specular = 1;
+            m.albedo = glm::vec3(rare, 0, 0);
+            add("AlmostBlack", m);
+            m = lossless::glass(0.3F);
+            m.transmission = rare;
+            add("RareGlass", m);
+            m = lossless::glass(0.3F);
+            m.albedo = glm::vec3(0, rare, 1);
+            add("OneColorOfGlass", m, true);
+            m.albedo = glm::vec3(0);
+            m.specular = 0;
+            add("Nothing", m);
+            m = lossless::coated(lossless::white(1, 0.5F), 0.1F);
+            m.clearcoat = rare;
+            add("RareCoat", m);
+        }
+    return list;
+}
+
 std::vector<BsdfFamily> bsdf_families()
 {
     return {{"Lambert", {{"Lambert", lossless::white(0, 1)}}},
@@ -88,9 +138,7 @@ std::vector<BsdfFamily> bsdf_families()
         {"Glass",
             at_all_angles(
                 "Glass", [](float r) { return lossless::glass(r); }, 2e-3)},
-        {"GlassInside",
-            at_all_angles(
-                "Glass", [](float r) { return lossless::glass(r); }, 2e-3, true)},
+        {"GlassInside", glass_inside()},
         {"Coated",
             at_all_angles(
                 "Coated", [](float r) { return lossless::coated(lossless::white(0, 1), r); })},

@@ -33,4 +33,7 @@ struct BsdfFamily {
 
 std::vector<BsdfFamily> bsdf_families();
 
+/// Materials that one lobe is hardly ever chosen of.
+std::vector<BsdfCase> bsdfs_of_rare_lobes();
+
 }  // namespace farlight
