@@ -2,9 +2,9 @@
 //
 // Means of a sampled picture are bounded by 5 standard errors with fixed seeds: a fresh seed would
 // pass them by chance once in 1.7 million.
-#include "lab/device_scene.h"
 #include "lab/groups.h"
 #include "lab/meshes.h"
+#include "lab/rendering.h"
 #include "lab/statistics.h"
 
 #include <algorithm>
@@ -14,54 +14,6 @@ namespace farlight::lab {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-struct Rendering {
-    RenderSettings settings;
-    Extent extent{48, 36};
-    int frames = 1;
-};
-
-/// The mean of frames; NaN everywhere when a frame counted something that is not finite.
-Image rendered(const Scene& scene, const Rendering& how)
-{
-    const DeviceScene on_device(scene);
-    View view(on_device.shared);
-    RenderedFrame frame;
-    std::uint32_t nonfinite = 0;
-    for (int i = 0; i < how.frames; ++i) {
-        frame = view.render(linear_request(on_device.scene, how.extent, how.settings));
-        nonfinite += frame.nonfinite_count;
-    }
-    if (nonfinite > 0)
-        std::fill(frame.image.bytes.begin(), frame.image.bytes.end(), std::byte{0xff});
-    return std::move(frame.image);
-}
-
-Rendering averaged(int samples, bool light_sampling, int max_depth)
-{
-    Rendering how;
-    how.settings.denoiser = Denoiser::kAccumulate;
-    how.settings.samples_per_pixel = samples;
-    how.settings.light_sampling = light_sampling;
-    how.settings.max_depth = max_depth;
-    how.settings.roulette_depth = 64;
-    how.frames = 4;
-    return how;
-}
-
-double largest_off(const Image& image, double expected)
-{
-    double off = 0;
-    for (const float value : values_of(image))
-        off = farther(off, std::abs(static_cast<double>(value) - expected));
-    return off;
-}
-
-double standard_errors_off(const Image& image, double expected)
-{
-    const Estimate estimate = mean_of(image);
-    return std::abs(estimate.mean - expected) / (estimate.standard_error + 1e-6 * expected);
-}
 
 /// Inside a closed box that emits 1 and reflects rho a path of n segments sees 1 + rho + ... =
 /// (1 - rho^n) / (1 - rho).

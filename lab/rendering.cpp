@@ -1,0 +1,140 @@
+// See the header.
+#include "lab/rendering.h"
+
+#include "lab/case.h"
+#include "lab/statistics.h"
+#include "server/gl/shader_source.h"
+
+#include <algorithm>
+#include <bit>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+namespace farlight::lab {
+namespace {
+
+constexpr int kTile = 8;
+
+/// Mean luminance of a tile's pixels and the variance of that mean.
+struct TileMean {
+    double mean = 0;
+    double variance = 0;
+};
+
+TileMean tile_mean(const Image& image, int left, int top)
+{
+    double sum = 0;
+    double squares = 0;
+    for (int y = top; y < top + kTile; ++y)
+        for (int x = left; x < left + kTile; ++x) {
+            const glm::dvec3 p = pixel(image, x, y);
+            const double value = (p.x + p.y + p.z) / 3;
+            sum += value;
+            squares += value * value;
+        }
+    constexpr double kCount = kTile * kTile;
+    const double mean = sum / kCount;
+    return {mean, std::max(squares / kCount - mean * mean, 0.0) / (kCount - 1)};
+}
+
+/// Welch 1947. What is not noise within a tile, its gradients, only makes it more lenient.
+double welch_p_value(const TileMean& a, const TileMean& b)
+{
+    const double variance = a.variance + b.variance;
+    if (!(variance > 0))
+        return a.mean == b.mean ? 1 : 0;
+    constexpr double kFreedom = kTile * kTile - 1;
+    const double freedom =
+        variance * variance * kFreedom / (a.variance * a.variance + b.variance * b.variance);
+    const double t = std::abs(a.mean - b.mean) / std::sqrt(variance);
+    if (!(t <= 1e6))
+        return 0;
+    return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
+}
+
+}  // namespace
+
+Rendering averaged(int samples, bool light_sampling, int max_depth)
+{
+    Rendering how;
+    how.settings.denoiser = Denoiser::kAccumulate;
+    how.settings.samples_per_pixel = samples;
+    how.settings.light_sampling = light_sampling;
+    how.settings.max_depth = max_depth;
+    how.settings.roulette_depth = 64;
+    how.frames = 4;
+    return how;
+}
+
+Image rendered(const DeviceScene& scene, const Rendering& how)
+{
+    View view(scene.shared);
+    RenderedFrame frame;
+    std::uint32_t nonfinite = 0;
+    for (int i = 0; i < how.frames; ++i) {
+        frame = view.render(linear_request(scene.scene, how.extent, how.settings));
+        nonfinite += frame.nonfinite_count;
+    }
+    if (nonfinite > 0)
+        std::fill(frame.image.bytes.begin(), frame.image.bytes.end(), std::byte{0xff});
+    return std::move(frame.image);
+}
+
+Image rendered(const Scene& scene, const Rendering& how)
+{
+    return rendered(DeviceScene(scene), how);
+}
+
+double largest_off(const Image& image, double expected)
+{
+    double off = 0;
+    for (const float value : values_of(image))
+        off = farther(off, std::abs(static_cast<double>(value) - expected));
+    return off;
+}
+
+double standard_errors_off(const Image& image, double expected)
+{
+    const Estimate estimate = mean_of(image);
+    return std::abs(estimate.mean - expected) / (estimate.standard_error + 1e-6 * expected);
+}
+
+double values_unlike(const Image& a, const Image& b)
+{
+    const std::vector<float> x = values_of(a);
+    const std::vector<float> y = values_of(b);
+    double unlike = std::abs(static_cast<double>(x.size()) - static_cast<double>(y.size()));
+    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+        unlike += std::bit_cast<std::uint32_t>(x[i]) == std::bit_cast<std::uint32_t>(y[i]) ? 0 : 1;
+    return unlike;
+}
+
+Agreement agreement_of(const Image& a, const Image& b)
+{
+    const Estimate difference = mean_of(difference_of(a, b));
+    Agreement found;
+    found.standard_errors = std::abs(difference.mean) / difference.standard_error;
+    found.standard_error = difference.standard_error / mean_of(a).mean;
+    for (int y = 0; y + kTile <= a.extent.height; y += kTile)
+        for (int x = 0; x + kTile <= a.extent.width; x += kTile) {
+            const double p = welch_p_value(tile_mean(a, x, y), tile_mean(b, x, y));
+            found.least_p_value = p >= found.least_p_value ? found.least_p_value : p;
+            ++found.tiles;
+        }
+    return found;
+}
+
+ChangedShader::ChangedShader(
+    const std::string& file, const std::string& text, const std::string& instead)
+    : file_(file)
+    , before_(shader_files().at(file))
+{
+    take_out({"changed for a while", "", file, text, instead});
+}
+
+ChangedShader::~ChangedShader()
+{
+    shader_files().at(file_) = before_;
+}
+
+}  // namespace farlight::lab

@@ -1,0 +1,54 @@
+// Small pictures of scenes, what they are compared with, and shaders changed for a while.
+#pragma once
+
+#include "lab/device_scene.h"
+#include "lab/guards.h"
+
+#include <cstddef>
+#include <string>
+
+namespace farlight::lab {
+
+struct Rendering {
+    RenderSettings settings;
+    Extent extent{48, 36};
+    int frames = 1;
+};
+
+/// Four frames of `samples` a pixel, averaged; no path ends by chance.
+Rendering averaged(int samples, bool light_sampling, int max_depth);
+
+/// The last of its frames; NaN everywhere when a frame counted something that is not finite.
+Image rendered(const DeviceScene& scene, const Rendering& how);
+Image rendered(const Scene& scene, const Rendering& how);
+
+/// Of any value.
+double largest_off(const Image& image, double expected);
+/// Of the mean.
+double standard_errors_off(const Image& image, double expected);
+/// Count of values whose bits differ.
+double values_unlike(const Image& a, const Image& b);
+
+/// Whether two pictures show the same, each with noise of its own.
+struct Agreement {
+    double standard_errors = 0;  ///< That the means differ by.
+    double standard_error = 0;  ///< Of the difference, over the mean of the first.
+    double least_p_value = 1;  ///< Of Welch's test of any tile of 8x8 pixels.
+    std::size_t tiles = 0;
+};
+Agreement agreement_of(const Image& a, const Image& b);
+
+/// While it lives, shaders compiled anew have `instead` for `text` in `file`, where it stands once.
+class ChangedShader {
+public:
+    ChangedShader(const std::string& file, const std::string& text, const std::string& instead);
+    ~ChangedShader();
+    ChangedShader(const ChangedShader&) = delete;
+    ChangedShader& operator=(const ChangedShader&) = delete;
+
+private:
+    std::string file_;
+    std::string before_;
+};
+
+}  // namespace farlight::lab
