@@ -8,12 +8,11 @@
 #include "lab/statistics.h"
 
 #include <cmath>
+#include <numbers>
 #include <random>
 
 namespace farlight::lab {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// A floor that a lamp stands on: light of density 1 / distance^2 in the corner.
 Scene lamp_on_the_floor()
@@ -242,7 +241,7 @@ void light_of_one_bright_lamp(Findings& findings, Length length)
             expected += static_cast<double>(scene.materials[m + 1].emission.x)
                 * irradiance_of({p[t.x], p[t.y], p[t.z]});
         }
-    expected *= 0.5 / kPi;
+    expected *= 0.5 / std::numbers::pi;
     const Image image = rendered(scene, averaged(16, true, 2));
     const Estimate mean = mean_of(image);
     // 2e-4: light changes by as much over the piece of floor that is seen.

@@ -14,6 +14,7 @@ struct Group {
 Group accumulation_group();
 Group bsdf_group();
 Group display_group();
+Group environment_group();
 Group estimators_group();
 Group filter_group();
 Group history_group();
@@ -30,10 +31,10 @@ Group watertight_group();
 
 inline std::vector<Group> all_groups()
 {
-    return {accumulation_group(), bsdf_group(), display_group(), estimators_group(), filter_group(),
-        history_group(), laws_group(), light_group(), poison_group(), precision_group(),
-        random_group(), samplers_group(), scale_group(), transport_group(), tree_group(),
-        watertight_group()};
+    return {accumulation_group(), bsdf_group(), display_group(), environment_group(),
+        estimators_group(), filter_group(), history_group(), laws_group(), light_group(),
+        poison_group(), precision_group(), random_group(), samplers_group(), scale_group(),
+        transport_group(), tree_group(), watertight_group()};
 }
 
 }  // namespace farlight::lab

@@ -2,6 +2,7 @@
 // surrounds all.
 #include "server/scene/neutral.h"
 
+#include "server/host_guard.h"
 #include "server/scene/deform.h"
 #include "server/scene/material_response.h"
 #include "server/scene/texture_mips.h"
@@ -12,6 +13,8 @@
 
 namespace farlight {
 namespace {
+
+const HostGuard map_of_one_color_is_none("map_of_one_color_is_none");
 
 // ---------------------------------------------------------------- tracks
 
@@ -289,7 +292,7 @@ void drop_uniform_environment(Scene& scene)
         const auto& texels = scene.environment->texels;
         const bool equal = std::all_of(texels.begin(), texels.end(),
             [&](const glm::vec3& texel) { return texel == texels[0]; });
-        if (equal) {
+        if (map_of_one_color_is_none && equal) {
             scene.background *= texels.empty() ? glm::vec3(0) : texels[0];
             scene.environment.reset();
         }

@@ -166,28 +166,6 @@ double spot_irradiance(double angle)
     return 3 * falloff * falloff * std::cos(0.5) / 4;
 }
 
-/// L(w) = 1 + b . w, with |b| = 0.8 at `angle` to the normal; a diffuse plane shows
-/// albedo (1 + 2/3 b . n).
-std::function<void(Scene&)> linear_sky(double angle)
-{
-    return [=](Scene& scene) {
-        EnvironmentMap map{"linear", 256, 128, {}};
-        for (std::uint32_t y = 0; y < map.height; ++y)
-            for (std::uint32_t x = 0; x < map.width; ++x) {
-                const double theta = pi * (y + 0.5) / map.height;
-                const double phi = 2 * pi * ((x + 0.5) / map.width - 0.5);
-                const glm::dvec3 w(std::sin(theta) * std::sin(phi), std::cos(theta),
-                    -std::sin(theta) * std::cos(phi));
-                const glm::dvec3 b = 0.8 * glm::dvec3(std::sin(angle), std::cos(angle), 0);
-                map.texels.emplace_back(static_cast<float>(1 + glm::dot(b, w)));
-            }
-        scene.environment = std::make_shared<EnvironmentMap>(map);
-        scene.background = glm::vec3(1);
-        // The map's frame is turned by a quarter about y: b's x comes to lie along the world's z.
-        scene.map_from_world = {{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}};
-    };
-}
-
 const std::vector<IrradianceCase>& irradiance_cases()
 {
     static const std::vector<IrradianceCase> cases{
@@ -221,9 +199,6 @@ const std::vector<IrradianceCase>& irradiance_cases()
                 .intensity = glm::vec3(2),
                 .direction = -sphere_at_angle(1, 1, 0.7).center}),
             false, 1},
-        {"SkyBrightAbove", 1.533333 * pi, linear_sky(0)},
-        {"SkyBrightAside", 1.407916 * pi, linear_sky(0.7)},
-        {"SkyBrightBelow", 0.778055 * pi, linear_sky(2)},
     };
     return cases;
 }
