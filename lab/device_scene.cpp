@@ -28,6 +28,19 @@ DeviceScene::DeviceScene(Scene s, const DeviceLimits& limits)
     scene_programs_.follow(gpu_scene_);
 }
 
+DeviceScene::DeviceScene(const LoadedScene& loaded)
+    : scene(*loaded.scene)
+    , kept_(loaded.scene)
+    , gpu_scene_(loaded.gpu)
+    , scene_programs_(programs_, nullptr, nullptr, {})
+    , inputs{gpu_scene_->textures(), gpu_scene_->defines()}
+    , shared{programs_, scene_programs_, loaded.look,
+          static_cast<std::uint32_t>(gpu_scene_->light_count()), true, true}
+{
+    shared.gpu = gpu_scene_.get();
+    scene_programs_.follow(gpu_scene_);
+}
+
 std::vector<float> values_of(const Image& image)
 {
     std::vector<float> values(image.bytes.size() / sizeof(float));

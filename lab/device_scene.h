@@ -1,6 +1,7 @@
 // A scene on the device and ways to render it without a server.
 #pragma once
 
+#include "server/render/live_scene.h"
 #include "server/render/view.h"
 
 #include <memory>
@@ -11,10 +12,13 @@ namespace farlight {
 class DeviceScene {
 public:
     explicit DeviceScene(Scene s, const DeviceLimits& limits = device_limits());
+    /// As the server has it, counted from its origin; `scene` then has no meshes.
+    explicit DeviceScene(const LoadedScene& loaded);
 
     Scene scene;
 
 private:
+    std::shared_ptr<const Scene> kept_;  ///< What the device's scene refers to, unless to `scene`.
     ProgramCache programs_;
     std::shared_ptr<GpuScene> gpu_scene_;
     ScenePrograms scene_programs_;

@@ -20,6 +20,7 @@ Group filter_group();
 Group history_group();
 Group laws_group();
 Group light_group();
+Group origin_group();
 Group poison_group();
 Group precision_group();
 Group random_group();
@@ -31,10 +32,26 @@ Group watertight_group();
 
 inline std::vector<Group> all_groups()
 {
-    return {accumulation_group(), bsdf_group(), display_group(), environment_group(),
-        estimators_group(), filter_group(), history_group(), laws_group(), light_group(),
-        poison_group(), precision_group(), random_group(), samplers_group(), scale_group(),
-        transport_group(), tree_group(), watertight_group()};
+    return {
+        accumulation_group(),
+        bsdf_group(),
+        display_group(),
+        environment_group(),
+        estimators_group(),
+        filter_group(),
+        history_group(),
+        laws_group(),
+        light_group(),
+        origin_group(),
+        poison_group(),
+        precision_group(),
+        random_group(),
+        samplers_group(),
+        scale_group(),
+        transport_group(),
+        tree_group(),
+        watertight_group(),
+    };
 }
 
 }  // namespace farlight::lab

@@ -23,6 +23,8 @@ struct ViewScales {
     float exposure;
     float scene_radius;
     float history_max;
+    bool linear;  ///< Numbers are wanted, not colours.
+    glm::dvec3 origin;  ///< From where the device counts positions.
 };
 
 /// Share of a pixel's brightness that is shown white by views of errors.
@@ -35,7 +37,18 @@ struct ViewRecipe {
     const char* show_as;
     float scale;
     TextureHandle second = {};  ///< VIEW_VARIANCE adds the indirect signal's.
+    glm::vec3 origin{0};  ///< VIEW_POSITION adds it.
 };
+
+/// Positions as the scene's file counts them. Cells of colours repeat: what of the origin is whole
+/// cells is left out, so that colours are as exact as anywhere.
+inline ViewRecipe position_recipe(TextureHandle position, const ViewScales& scales)
+{
+    const double cell = 0.25 * static_cast<double>(scales.scene_radius);
+    const glm::dvec3 within = glm::mod(scales.origin, cell);
+    return {position, "VIEW_POSITION", "SHOW_FRACTION", static_cast<float>(cell), {},
+        glm::vec3(scales.linear ? scales.origin : within)};
+}
 
 /// How `view` is shown. Without its buffer (no denoiser: no history) the view is zero everywhere.
 inline ViewRecipe recipe_of(DebugView view, const FrameBuffers& b, const ViewScales& scales)
@@ -59,8 +72,7 @@ inline ViewRecipe recipe_of(DebugView view, const FrameBuffers& b, const ViewSca
             return {b.gbuffer.surface, "VIEW_DEPTH", "SHOW_DISTANCE", 2 * scales.scene_radius};
         case DebugView::kDepthGradient:
             return {b.gbuffer.surface, "VIEW_GRADIENT", "SHOW_MOTION", 0.01F * scales.scene_radius};
-        case DebugView::kPosition:
-            return {b.gbuffer.position, "VIEW_COLOR", "SHOW_FRACTION", 0.25F * scales.scene_radius};
+        case DebugView::kPosition: return position_recipe(b.gbuffer.position, scales);
         case DebugView::kGeometricNormal:
             return {b.gbuffer.identity, "VIEW_GEOMETRIC", "SHOW_NORMAL", 1};
         case DebugView::kShadingNormal:
@@ -119,6 +131,8 @@ inline TextureHandle add_debug_value(
         pass.read("in_texture", recipe.source);
     if (recipe.second.index >= 0)
         pass.read("in_second", recipe.second);
+    if (recipe.read_as == std::string_view("VIEW_POSITION"))
+        pass.constant("origin", recipe.origin);
     return value;
 }
 

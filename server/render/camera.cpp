@@ -42,13 +42,14 @@ CameraBasis camera_basis(const CameraPose& pose)
     return basis;
 }
 
-shared::CameraConstants camera_constants(const CameraPose& pose, Extent extent)
+shared::CameraConstants camera_constants(
+    const CameraPose& pose, Extent extent, const glm::dvec3& origin)
 {
     const CameraBasis basis = camera_basis(pose);
     const double half_height = std::tan(glm::radians(pose.vertical_fov_degrees) / 2);
     const double half_width = half_height * extent.width / extent.height;
     shared::CameraConstants constants{};
-    constants.position = glm::vec3(pose.position);
+    constants.position = glm::vec3(pose.position - origin);
     constants.pixel_footprint = static_cast<float>(2 * half_height / extent.height);
     constants.forward = glm::vec3(basis.forward);
     constants.width = static_cast<float>(extent.width);

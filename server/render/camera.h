@@ -17,6 +17,8 @@ struct CameraBasis {
 
 CameraBasis camera_basis(const CameraPose& pose);
 
-shared::CameraConstants camera_constants(const CameraPose& pose, Extent extent);
+/// `origin`: from where positions on the device are counted (Scene::origin).
+shared::CameraConstants camera_constants(
+    const CameraPose& pose, Extent extent, const glm::dvec3& origin = glm::dvec3(0));
 
 }  // namespace farlight

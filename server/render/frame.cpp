@@ -18,8 +18,8 @@ namespace {
 std::optional<TextureHandle> add_debug_view(
     FrameGraph& graph, const FrameBuffers& buffers, const FramePlan& plan)
 {
-    const ViewScales scales{
-        plan.settings.exposure, plan.scene_radius, static_cast<float>(plan.settings.history_max)};
+    const ViewScales scales{plan.settings.exposure, plan.scene_radius,
+        static_cast<float>(plan.settings.history_max), plan.linear_output, plan.origin};
     // A sheet has no numbers of its own: raw frames of it hold the picture's.
     if (plan.settings.view == DebugView::kFinal
         || (plan.settings.view == DebugView::kSheet && plan.linear_output))

@@ -28,6 +28,7 @@ struct FramePlan {
     ErrorLooks looks;
     bool keeps_flip = false;  ///< The FLIP map is the last one, if there is one.
     float scene_radius = 1;  ///< [m], scales debug views.
+    glm::dvec3 origin{0};  ///< From where the device counts positions.
     bool scatters = true;  ///< Something in the scene is lit and can show it.
     bool linear_output =
         false;  ///< The caller wants numbers (rgba32f), not display values (rgba8).

@@ -4,6 +4,7 @@
 #include "server/render/frame.h"
 #include "server/render/scene_settings.h"
 #include "server/scene/neutral.h"
+#include "server/scene/scene_origin.h"
 
 #include <algorithm>
 
@@ -36,6 +37,7 @@ LoadedScene load_onto_device(Scene scene)
 {
     drop_neutral(scene);
     const Bounds bounds = scene_bounds(scene);
+    count_from(scene, origin_of(scene));
     const SceneLook look = look_of(scene);
     const auto kept = std::make_shared<Scene>(std::move(scene));
     auto gpu = std::make_shared<GpuScene>(*kept);

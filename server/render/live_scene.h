@@ -15,7 +15,7 @@ namespace farlight {
 struct LoadedScene {
     std::shared_ptr<const Scene> scene;  ///< Without meshes: the device has them.
     std::shared_ptr<GpuScene> gpu;
-    Bounds bounds;
+    Bounds bounds;  ///< In the file's coordinates; those of `scene` start at its origin.
     SceneLook look;
 };
 

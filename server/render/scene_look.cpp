@@ -48,6 +48,7 @@ SceneLook look_of(const Scene& scene)
     look.background = scene.background;
     look.radius = static_cast<float>(radius);
     look.lens = scene.lens;
+    look.origin = scene.origin;
     look.fog.sigma_t = scene.medium.sigma_a + scene.medium.sigma_s;
     look.fog.sigma_s = scene.medium.sigma_s;
     look.fog.g = scene.medium.g;

@@ -11,6 +11,7 @@ struct SceneLook {
     glm::vec3 background{0};
     Fog fog;
     Lens lens;
+    glm::dvec3 origin{0};  ///< What is subtracted from cameras: Scene::origin.
     float radius = 1;  ///< Of the scene [m].
     bool holes = false;  ///< Something drawn is not there everywhere.
     bool scatters = true;  ///< Something is lit and can show it; else only emission is seen.

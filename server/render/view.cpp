@@ -116,9 +116,13 @@ double View::pose(double time)
 void View::upload_constants(const RenderRequest& request)
 {
     shared::FrameConstants constants{};
-    constants.camera = camera_constants(request.camera, key_.extent);
-    constants.prev_camera = has_history_ ? prev_camera_ : constants.camera;
-    prev_camera_ = constants.camera;
+    const glm::dvec3& origin = scene_.look.origin;
+    constants.camera = camera_constants(request.camera, key_.extent, origin);
+    // From its pose: another scene, with another origin, may have taken the place of the last.
+    constants.prev_camera =
+        has_history_ ? camera_constants(prev_camera_, prev_extent_, origin) : constants.camera;
+    prev_camera_ = request.camera;
+    prev_extent_ = key_.extent;
     constants.background = scene_.look.background;
     if (moves())
         constants.background *= scene_.gpu->background_factor();
@@ -180,6 +184,7 @@ FramePlan View::plan_of(const RenderRequest& request)
     plan.frame_index = frame_index_;
     plan.refine = request.refine;
     plan.scene_radius = scene_.look.radius;
+    plan.origin = scene_.look.origin;
     plan.scatters = scene_.look.scatters;
     plan.linear_output = request.format == PixelFormat::kRgb32f;
     const bool specular = scene_.scene_programs.scene_mask().has("specular_signal");

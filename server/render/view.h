@@ -97,7 +97,8 @@ private:
     std::vector<double> filter_;  ///< What the denoised picture depends on: see filter_key().
     bool new_filter_ = false;  ///< It changed with this frame.
     Extent full_extent_;  ///< Of the last frame.
-    shared::CameraConstants prev_camera_{};
+    CameraPose prev_camera_;
+    Extent prev_extent_;  ///< Drawn in the last frame.
     double prev_time_ = 0;
     bool has_history_ = false;
     std::uint32_t samples_ =

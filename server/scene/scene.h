@@ -248,6 +248,9 @@ struct Scene {
     Medium medium;
     Lens lens;
     Animation animation;  ///< Empty when nothing moves.
+    /// Where the coordinates of all of the above start, in those of the cameras below: zero but in
+    /// a scene made ready for a device (scene_origin.h).
+    glm::dvec3 origin{0};
     CameraPose camera;
     std::map<std::string, std::vector<CameraKeyframe>> camera_paths;
     std::map<std::string, SettingValue>

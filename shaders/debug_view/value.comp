@@ -7,7 +7,8 @@
 //   VIEW_RED       r, thrice              VIEW_DEPTH      view depth [m], thrice
 //   VIEW_GRADIENT  dz/dx, dz/dy, 0        VIEW_SHADING    shading normal
 //   VIEW_OBJECT    object id              VIEW_MATERIAL   material id
-//   VIEW_GEOMETRIC geometric normal        VIEW_NOTHING    zero: the frame has no such buffer
+//   VIEW_GEOMETRIC geometric normal       VIEW_POSITION   rgb from where the scene's file counts, 0 without a surface
+//   VIEW_NOTHING   zero: the frame has no such buffer
 #version 450
 #include "lib/frame.glsl"
 #include "lib/packing.glsl"
@@ -15,7 +16,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#if defined(VIEW_COLOR) || defined(VIEW_VARIANCE) || defined(VIEW_RED)
+#if defined(VIEW_COLOR) || defined(VIEW_VARIANCE) || defined(VIEW_RED) || defined(VIEW_POSITION)
 uniform sampler2D in_texture;
 #elif !defined(VIEW_NOTHING)
 uniform usampler2D in_texture;
@@ -23,12 +24,18 @@ uniform usampler2D in_texture;
 #ifdef VIEW_VARIANCE
 uniform sampler2D in_second;
 #endif
+#ifdef VIEW_POSITION
+uniform vec3 origin;
+#endif
 uniform writeonly image2D out_value;
 
 vec3 value_at(ivec2 px)
 {
 #if defined(VIEW_COLOR)
     return texelFetch(in_texture, px, 0).rgb;
+#elif defined(VIEW_POSITION)
+    const vec4 position = texelFetch(in_texture, px, 0);
+    return position.a > 0.0 ? origin + position.rgb : vec3(0.0);
 #elif defined(VIEW_NOTHING)
     return vec3(0.0);
 #elif defined(VIEW_VARIANCE)

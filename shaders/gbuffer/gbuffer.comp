@@ -4,7 +4,7 @@
 //        out_surface   rgba32ui  view depth [m] and its change per pixel along x and y, as float bits; shading normal
 //                                (octahedral). Depth 0 marks a miss.
 //        out_identity  rgba32ui  object id, material id, geometric normal (octahedral), 1 on a hit
-//        out_position  rgba32f   world position [m]
+//        out_position  rgba32f   world position [m], counted from the scene's origin; a: 1 where there is a surface
 //        out_albedo    rgba32f   diffuse reflectance
 //        out_emission  rgba32f   radiance that bypasses the filter: emitters seen directly, what is unlit, environment
 //        out_motion    rgba32f   where the surface was: previous minus current pixel (xy) [px], previous minus
@@ -77,7 +77,7 @@ void main()
     imageStore(out_surface, px, met ? uvec4(floatBitsToUint(depth), pack_octahedral(m.shading_normal)) : uvec4(0u));
     imageStore(out_identity, px,
         met ? uvec4(s.object, s.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
-    imageStore(out_position, px, met ? vec4(s.position, 0.0) : vec4(0.0));
+    imageStore(out_position, px, met ? vec4(s.position, 1.0) : vec4(0.0));
     imageStore(out_albedo, px, met ? vec4(diffuse_albedo(m, s, ray), 1.0) : vec4(0.0));
     imageStore(out_emission, px, vec4(met ? m.emission : environment_radiance(ray.direction), 1.0));
     imageStore(out_motion, px, met ? motion_of(s.position, s.prev_position) : vec4(0.0));

@@ -8,7 +8,7 @@ SHARED_BEGIN
 // A pinhole camera as the frame of its rays: pixel (x, y) looks along
 // forward + ndc.x * right - ndc.y * up, with ndc in [-1, 1] from the picture's top left.
 struct CameraConstants {
-    vec3 position;  // world space [m]
+    vec3 position;  // in world space, counted from the scene's origin like all there [m]
     float pixel_footprint;  // height of a pixel at view depth 1 [m]
     vec3 forward;  // unit
     float width;  // of the picture it draws [px]
