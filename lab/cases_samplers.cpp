@@ -114,7 +114,7 @@ constexpr Case kSamplersCases[] = {
         "Samples of a coat over a diffuse layer follow their density.", coat_samples},
     {"29f", "samplers", "samples of mixtures", Layer::kFunction,
         "Samples of several lobes at once follow their density.", mixed_samples},
-    {"29g", "samplers", "samples around leaning normals", Layer::kFunction,
+    {"29g", "samplers", "samples in leaning frames", Layer::kFunction,
         "Samples around a normal that is not the surface's follow their density.", leaning_samples},
     {"30", "samplers", "rare lobes", Layer::kFunction,
         "However unlikely a lobe, a sample's weight is finite and at most one over that chance.",

@@ -20,7 +20,9 @@ Group filter_group();
 Group history_group();
 Group laws_group();
 Group light_group();
+Group normals_group();
 Group origin_group();
+Group packing_group();
 Group poison_group();
 Group precision_group();
 Group random_group();
@@ -42,7 +44,9 @@ inline std::vector<Group> all_groups()
         history_group(),
         laws_group(),
         light_group(),
+        normals_group(),
         origin_group(),
+        packing_group(),
         poison_group(),
         precision_group(),
         random_group(),

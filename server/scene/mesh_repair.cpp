@@ -15,6 +15,7 @@ namespace farlight {
 namespace {
 
 const HostGuard repair_drops_no_area("repair_drops_no_area");
+const HostGuard least_direction("least_direction");
 
 /// Twice the area times the unit normal; zero where the corners lie on a line as far as float
 /// positions can tell.
@@ -39,10 +40,12 @@ std::vector<glm::dvec3> face_normals(const Mesh& mesh)
     return sums;
 }
 
-/// Whether the vector has a direction: neither zero nor beyond floats.
+/// Whether a vector of floats has a direction: neither zero, nor so short that its components have
+/// lost their digits, nor beyond floats.
 bool has_direction(double length)
 {
-    return length > 0 && length <= std::numeric_limits<float>::max();
+    const double least = least_direction ? std::numeric_limits<float>::min() : 0;
+    return length > 0 && length >= least && length <= std::numeric_limits<float>::max();
 }
 
 std::size_t repair_normals(Mesh& mesh)

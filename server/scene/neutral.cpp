@@ -14,6 +14,7 @@
 namespace farlight {
 namespace {
 
+const HostGuard flat_normal_map_is_none("flat_normal_map_is_none");
 const HostGuard map_of_one_color_is_none("map_of_one_color_is_none");
 
 // ---------------------------------------------------------------- tracks
@@ -267,7 +268,7 @@ private:
 
     void drop_flat(Texture& texture, float scale)
     {
-        if (texture.used() && (scale == 0 || is_flat(range(texture))))
+        if (flat_normal_map_is_none && texture.used() && (scale == 0 || is_flat(range(texture))))
             texture = {};
     }
 

@@ -34,7 +34,10 @@ vec3 bent_normal(vec3 n, vec3 geometric_normal, vec3 wo)
     precise const float height = dot(mirrored_wo, geometric_normal);
     const float least = min(0.01, 0.9 * dot(wo, geometric_normal));
     precise const vec3 raised = mirrored_wo + (least - height) * geometric_normal;
-    precise const vec3 bent = normalize(wo + normalize(raised));
-    return height < least ? bent : upright;
+    precise const vec3 half_way = wo + normalize(raised);
+    // Of a viewer on the horizon who is mirrored to the horizon behind, rounding is all that is left: thousandths are
+    // known to four digits, and what is not known at all is not greater either.
+    const vec3 bent = dot(half_way, half_way) > 1e-6 ? normalize(half_way) : geometric_normal;
+    return height >= least && dot(upright, wo) > 0.0 ? upright : bent;
 }
 #endif

@@ -1,35 +1,14 @@
-// White things of every material under a white sky disappear: the path tracer, its textures, normal
-// maps and insides lose and gain nothing.
+// White things of every material under a white sky disappear: the path tracer, its textures and
+// insides lose and gain nothing. Shading normals that are not the surface's: lab/cases_normals.cpp.
 //
 // Seeds are fixed; the bounds are 5 standard errors, which a fresh seed would exceed once in 1.7
 // million, and what the albedo tables are interpolated to, 2e-3 a bounce.
 #include "lab/lossless_materials.h"
-#include "lab/meshes.h"
 #include "lab/statistics.h"
 #include "tests/support/gl_test.h"
 
-#include <functional>
-#include <random>
-
 namespace farlight {
 namespace {
-
-/// Normals all over the upper hemisphere, down to 17 degrees above the surface.
-Image8 wild_normals()
-{
-    Image8 image{"normals", 16, 16, {}};
-    std::mt19937 random(5);
-    std::uniform_real_distribution<float> turn(0, 6.2831853F);
-    std::uniform_real_distribution<float> height(0.3F, 1);
-    for (int i = 0; i < 16 * 16; ++i) {
-        const float z = height(random);
-        const float phi = turn(random);
-        const float r = std::sqrt(1 - z * z);
-        const glm::vec3 n(r * std::cos(phi), r * std::sin(phi), z);
-        image.texels.emplace_back(glm::u8vec3(glm::round((n * 0.5F + 0.5F) * 255.0F)), 255);
-    }
-    return image;
-}
 
 Scene under_a_white_sky()
 {
@@ -45,28 +24,6 @@ Scene ball(const Material& material)
     Scene scene = under_a_white_sky();
     scene.materials.push_back(material);
     scene.objects.push_back({"ball", 0, Sphere{{0, 0, 0}, 1}});
-    return scene;
-}
-
-/// A slanted square whose normal map sends light everywhere.
-Scene rough_relief(Material material)
-{
-    Scene scene = under_a_white_sky();
-    scene.images.push_back(wild_normals());
-    material.normal_texture.image = 0;
-    scene.materials.push_back(std::move(material));
-    scene.objects.push_back({"relief", 0, Quad{{-1.5, -0.3, 1}, {3, 0, 0}, {0, 0.6, -2}}});
-    return scene;
-}
-
-Scene smooth_bumps(const Material& material)
-{
-    Mesh mesh = bumpy_sphere(24, 12);
-    for (const glm::vec3& position : mesh.positions)
-        mesh.normals.push_back(glm::normalize(position));
-    Scene scene = scene_of(std::move(mesh));
-    scene.background = glm::vec3(1);
-    scene.materials[0] = material;
     return scene;
 }
 
@@ -126,15 +83,7 @@ INSTANTIATE_TEST_SUITE_P(Bsdf, WhiteFurnace,
         MaterialFurnaceCase{"RoughGlass", ball(lossless::glass(0.5F)), 6e-3},
         MaterialFurnaceCase{"Bubble", ball(lossless::thin_glass(0))},
         MaterialFurnaceCase{"FrostedBubble", ball(lossless::thin_glass(0.5F))},
-        MaterialFurnaceCase{"Nested", nested(), 6e-3},
-        MaterialFurnaceCase{"LambertRelief", rough_relief(lossless::white(0, 1))},
-        MaterialFurnaceCase{"MetalRelief", rough_relief(lossless::white(1, 0.5F))},
-        MaterialFurnaceCase{"MirrorRelief", rough_relief(lossless::white(1, 0))},
-        MaterialFurnaceCase{"PlasticRelief", rough_relief(lossless::plastic(0.4F))},
-        MaterialFurnaceCase{"BubbleRelief", rough_relief(lossless::thin_glass(0.4F))},
-        MaterialFurnaceCase{"LambertBumps", smooth_bumps(lossless::white(0, 1))},
-        MaterialFurnaceCase{"MetalBumps", smooth_bumps(lossless::white(1, 0.3F))},
-        MaterialFurnaceCase{"GlassBumps", smooth_bumps(lossless::glass(0)), 4e-3}),
+        MaterialFurnaceCase{"Nested", nested(), 6e-3}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace
