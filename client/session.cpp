@@ -92,6 +92,12 @@ void Session::set(const std::string& key, const nlohmann::json& value)
     wait_for<State>([](const State&) { return true; });
 }
 
+void Session::resize(const Size& size)
+{
+    connection_.send(Resize{.width = size[0], .height = size[1]});
+    wait_for<State>([](const State&) { return true; });
+}
+
 SceneChanged Session::edit(const nlohmann::json& merge_patch, bool reset)
 {
     const std::uint32_t id = ++last_edit_;

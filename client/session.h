@@ -50,6 +50,8 @@ public:
     Frame draw(const protocol::Pose& pose, bool cut = false);
     /// Changes a setting and waits for the server's word. Throws RefusedError.
     void set(const std::string& key, const nlohmann::json& value);
+    /// Changes the size of frames and waits for the server's word. Throws RefusedError.
+    void resize(const protocol::Size& size);
     /// Changes the scene and waits until frames show it. Throws RefusedError.
     protocol::SceneChanged edit(const nlohmann::json& merge_patch, bool reset = false);
     /// What the scene calls for, and what the last frame was drawn with.

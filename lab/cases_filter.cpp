@@ -54,7 +54,7 @@ void variance_is_never_negative(Findings& findings, Length length)
             mean[i] = frame == 1 ? value : mean[i] + weight * delta;
             variance[i] = (1 - weight) * (variance[i] + weight * delta * delta);
         }
-        put(*bench, "in_light", light);
+        bench->set_texels("in_light", light);
         bench->constant("history_valid", frame > 1 ? 1 : 0);
         bench->run();
         bench->swap("prev_light", "out_light");

@@ -88,6 +88,12 @@ void look_at(PoisonSeen& seen, View& view, RenderRequest& request, const Poisone
     seen.counted_later += later.nonfinite_count == 0 ? 0 : 1;
 }
 
+/// The furnace has no specular and no scattered light.
+bool is_of_an_effect(const PoisonedStage& stage)
+{
+    return stage.only_with != nullptr && std::string_view(stage.only_with).starts_with("FX_");
+}
+
 /// Every stage, every kind of poison, with a history and without, in a picture that refines too.
 void poisoned_stages(Findings& findings, Length /*length*/)
 {
@@ -97,6 +103,8 @@ void poisoned_stages(Findings& findings, Length /*length*/)
     int frames = 0;
     for (const bool with_history : {true, false})
         for (std::size_t stage = 0; stage < PoisonedShaders::stages().size(); ++stage) {
+            if (is_of_an_effect(PoisonedShaders::stages()[stage]))
+                continue;
             View view(scene.shared);
             RenderRequest request = furnace_request(scene.scene);
             for (int i = 0; i < 2 && with_history; ++i)

@@ -28,6 +28,9 @@ Group precision_group();
 Group random_group();
 Group samplers_group();
 Group scale_group();
+Group server_group();
+Group signals_group();
+Group soak_group();
 Group transport_group();
 Group tree_group();
 Group watertight_group();
@@ -52,6 +55,9 @@ inline std::vector<Group> all_groups()
         random_group(),
         samplers_group(),
         scale_group(),
+        server_group(),
+        signals_group(),
+        soak_group(),
         transport_group(),
         tree_group(),
         watertight_group(),

@@ -1,6 +1,7 @@
 // farlight-hard-cases: the laboratory's command line; `farlight hard-cases` starts it.
 #include "lab/guards.h"
 #include "lab/mutations.h"
+#include "lab/server_bench.h"
 #include "server/gl/context.h"
 
 #include <CLI/App.hpp>
@@ -164,6 +165,7 @@ int run(const Options& options)
     spdlog::set_default_logger(spdlog::stderr_color_st("farlight-hard-cases"));
     spdlog::set_level(spdlog::level::err);
     const Context context(options.device);
+    ServerBench::use_device(options.device);
     Sheet sheet;
     sheet.device = context.device().name + ", " + context.device().version;
     std::ostream& lines = options.json ? std::cerr : std::cout;

@@ -3,6 +3,7 @@
 
 #include "server/gl/gl_error.h"
 
+#include <cassert>
 #include <stdexcept>
 
 namespace farlight::lab {
@@ -45,7 +46,7 @@ PassBench::PassBench(const std::string& shader, const Defines& defines, Extent e
 
 void PassBench::fill(const std::string& name, GLenum format, const glm::vec4& value)
 {
-    auto texture = std::make_unique<GpuTexture>("bench " + name, format, extent_);
+    auto texture = std::make_shared<GpuTexture>("bench " + name, format, extent_);
     glClearTexImage(texture->id(), 0, GL_RGBA, GL_FLOAT, &value);
     textures_[name] = std::move(texture);
 }
@@ -55,9 +56,24 @@ void PassBench::set_pixel(const std::string& name, int x, int y, const glm::vec4
     glTextureSubImage2D(textures_.at(name)->id(), 0, x, y, 1, 1, GL_RGBA, GL_FLOAT, &value);
 }
 
+void PassBench::set_texels(const std::string& name, const std::vector<glm::vec4>& texels)
+{
+    assert(texels.size()
+        == static_cast<std::size_t>(extent_.width) * static_cast<std::size_t>(extent_.height));
+    glTextureSubImage2D(textures_.at(name)->id(), 0, 0, 0, extent_.width, extent_.height, GL_RGBA,
+        GL_FLOAT, texels.data());
+}
+
+void PassBench::share(
+    const std::string& name, const PassBench& other, const std::string& others_name)
+{
+    assert(extent_ == other.extent_);
+    textures_[name] = other.textures_.at(others_name);
+}
+
 void PassBench::fill_bits(const std::string& name, GLenum format, const glm::uvec4& value)
 {
-    auto texture = std::make_unique<GpuTexture>("bench " + name, format, extent_);
+    auto texture = std::make_shared<GpuTexture>("bench " + name, format, extent_);
     glClearTexImage(texture->id(), 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, &value);
     textures_[name] = std::move(texture);
 }

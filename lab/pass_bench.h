@@ -27,6 +27,10 @@ public:
     /// Likewise of whole numbers.
     void fill_bits(const std::string& name, GLenum format, const glm::uvec4& value);
     void set_bits(const std::string& name, int x, int y, const glm::uvec4& value);
+    /// Texels row by row from the top, as read() gives them.
+    void set_texels(const std::string& name, const std::vector<glm::vec4>& texels);
+    /// A texture of another bench of the same extent, as this shader's variable `name`.
+    void share(const std::string& name, const PassBench& other, const std::string& others_name);
     /// Exchanges what two variables are bound to: what was written becomes what was read.
     void swap(const std::string& a, const std::string& b);
     void constant(const std::string& name, std::variant<int, float, glm::vec3> value);
@@ -48,7 +52,7 @@ private:
     Buffer frame_block_;
     Buffer counters_;
     Buffer tiles_;
-    std::map<std::string, std::unique_ptr<GpuTexture>> textures_;
+    std::map<std::string, std::shared_ptr<GpuTexture>> textures_;
 };
 
 }  // namespace farlight::lab

@@ -9,20 +9,22 @@ namespace {
 constexpr PoisonedStage kStages[] = {
     {"path_trace/path_trace.comp", "out_direct", "true", true, true},
     {"path_trace/path_trace.comp", "out_indirect", "true", true, true},
+    {"path_trace/path_trace.comp", "out_specular", "true", true, true, false, "FX_SPECULAR_SIGNAL"},
+    {"path_trace/path_trace.comp", "out_scattered", "true", true, true, false, "FX_FOG"},
     {"gbuffer/gbuffer.comp", "out_surface", "true", false, true, true},
     {"gbuffer/gbuffer.comp", "out_motion", "true", false, true},
     {"gbuffer/gbuffer.comp", "out_emission", "true", true, false},
     {"gbuffer/gbuffer.comp", "out_albedo", "true", true, false},
     {"svgf/temporal.comp", "out_light", "true", true, true},
-    {"svgf/temporal.comp", "out_light_2", "true", true, true},
+    {"svgf/temporal.comp", "out_light_2", "true", true, true, false, "SIGNAL_PAIR"},
     {"svgf/temporal.comp", "out_moments", "true", false, true},
     {"svgf/temporal.comp", "out_length", "true", false, true},
     {"svgf/variance.comp", "out_light", "true", true, true},
     {"svgf/atrous.comp", "out_light", "step_size == 1", true, true},
-    {"svgf/atrous.comp", "out_light_2", "step_size == 2", true, true},
+    {"svgf/atrous.comp", "out_light_2", "step_size == 2", true, true, false, "SIGNAL_PAIR"},
     {"svgf/atrous.comp", "out_light", "step_size == 4", true, true},
     {"svgf/atrous.comp", "out_light", "step_size == 8", true, false},
-    {"svgf/atrous.comp", "out_light_2", "step_size == 16", true, false},
+    {"svgf/atrous.comp", "out_light_2", "step_size == 16", true, false, false, "SIGNAL_PAIR"},
 };
 
 /// What comes after the stage's own main(); statements and a brace follow.
@@ -41,8 +43,11 @@ std::string write_of(const PoisonedStage& stage, std::size_t index)
 {
     const std::string kind = std::to_string(index + 1) + "u";
     const std::string value = stage.bits ? "uvec4(poison)" : "vec4(uintBitsToFloat(poison))";
-    return "    if (frame.seed / 4u == " + kind + " && " + stage.condition
+    const std::string statement = "    if (frame.seed / 4u == " + kind + " && " + stage.condition
         + ")\n        imageStore(" + stage.output + ", poisoned_pixel, " + value + ");\n";
+    return stage.only_with == nullptr
+        ? statement
+        : "#ifdef " + std::string(stage.only_with) + "\n" + statement + "#endif\n";
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct PoisonedStage {
     bool filled;  ///< A later stage fills the hole from around it: from 16 pixels away there is
                   ///< nothing.
     bool bits = false;  ///< The texture holds whole numbers.
+    const char* only_with = nullptr;  ///< Macro without which the stage has no such texture.
 };
 
 /// While it lives, shaders compiled anew write poison into a pixel of the stage that the seed

@@ -28,11 +28,6 @@ template <typename Value> void for_pixels(const Value& value)
             value(x, y);
 }
 
-inline void put(PassBench& bench, const std::string& name, const Texels& texels)
-{
-    for_pixels([&](int x, int y) { bench.set_pixel(name, x, y, texels[place_of(x, y)]); });
-}
-
 /// Everything the filter does to a signal: over time, its variance, and the wavelets, with the
 /// feedback of a view.
 class WholeFilter {
@@ -53,6 +48,9 @@ public:
                 bench->fill(light, GL_RGBA32F, glm::vec4(beyond));
             for_pixels([&](int x, int y) { bench->set_bits("in_surface", x, y, surface(x, y)); });
         }
+        for (const char* kept : {"first_light", "first_light_2", "even_light", "even_light_2",
+                 "odd_light", "odd_light_2"})
+            atrous_->fill(kept, GL_RGBA32F, glm::vec4(beyond));
         for (const char* past : {"prev_light", "prev_light_2", "prev_moments", "prev_length",
                  "out_moments", "out_length"})
             temporal_->fill(past, GL_RGBA32F, glm::vec4(beyond));
@@ -68,31 +66,23 @@ public:
     const Texels& frame(const Texels& light)
     {
         for (const char* name : {"in_light", "in_light_2"})
-            put(*temporal_, name, light);
+            temporal_->set_texels(name, light);
+        repeat();
+        picture_ = atrous_->read("out_light");
+        return picture_;
+    }
+    /// A frame that shows the light of the last one, of which nobody wants to see the picture.
+    void repeat()
+    {
         temporal_->constant("history_valid", frames_++ > 0 ? 1 : 0);
         temporal_->run();
-        put(*variance_, "in_light", temporal_->read("out_light"));
-        put(*variance_, "in_light_2", temporal_->read("out_light_2"));
-        put(*variance_, "in_moments", temporal_->read("out_moments"));
-        put(*variance_, "in_length", temporal_->read("out_length"));
+        for (const char* input : {"light", "light_2", "moments", "length"})
+            variance_->share(in(input), *temporal_, out(input));
         variance_->run();
-        picture_ = variance_->read("out_light");
-        second_ = variance_->read("out_light_2");
-        for (int step = 1; step <= 16; step *= 2) {
-            put(*atrous_, "in_light", picture_);
-            put(*atrous_, "in_light_2", second_);
-            atrous_->constant("step_size", step);
-            atrous_->run();
-            picture_ = atrous_->read("out_light");
-            second_ = atrous_->read("out_light_2");
-            if (step == 1) {
-                put(*temporal_, "prev_light", picture_);
-                put(*temporal_, "prev_light_2", second_);
-            }
-        }
+        for (int step = 1; step <= 16; step *= 2)
+            iterate(step);
         temporal_->swap("prev_moments", "out_moments");
         temporal_->swap("prev_length", "out_length");
-        return picture_;
     }
     /// Of the last frame [frames], where something is met.
     double shortest_history() const
@@ -101,6 +91,13 @@ public:
         for (const glm::vec4& texel : temporal_->read("prev_length"))
             shortest = std::min(shortest, texel.x);
         return shortest;
+    }
+    double longest_history() const
+    {
+        float longest = 0;
+        for (const glm::vec4& texel : temporal_->read("prev_length"))
+            longest = std::max(longest, texel.x);
+        return longest;
     }
     /// Pixels of the last frame whose mean or variance over time no number says.
     int endless_moments() const
@@ -116,11 +113,29 @@ public:
     }
 
 private:
+    static std::string in(const char* name) { return std::string("in_") + name; }
+    static std::string out(const char* name) { return std::string("out_") + name; }
+
+    /// Taps `step` pixels apart. What the first iteration writes is the next frame's history: none
+    /// of the others writes there.
+    void iterate(int step)
+    {
+        const std::string to = step == 1 ? "first_" : step == 2 || step == 8 ? "even_" : "odd_";
+        for (const char* light : {"light", "light_2"}) {
+            atrous_->share(in(light), step == 1 ? *variance_ : *atrous_, out(light));
+            atrous_->share(out(light), *atrous_, to + light);
+        }
+        atrous_->constant("step_size", step);
+        atrous_->run();
+        if (step == 1)
+            for (const char* light : {"light", "light_2"})
+                temporal_->share(std::string("prev_") + light, *atrous_, out(light));
+    }
+
     std::unique_ptr<PassBench> temporal_ = filter_bench("temporal", kFiltered);
     std::unique_ptr<PassBench> variance_ = filter_bench("variance", kFiltered);
     std::unique_ptr<PassBench> atrous_ = filter_bench("atrous", kFiltered);
     Texels picture_;
-    Texels second_;
     int frames_ = 0;
 };
 

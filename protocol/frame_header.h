@@ -47,7 +47,7 @@ constexpr float kNotEstimated = std::numeric_limits<float>::quiet_NaN();
 struct FrameHeader {
     Format format = Format::kJpeg420;
     std::uint16_t flags = 0;
-    std::uint32_t frame_id = 0;  ///< Counts up by one a frame sent, from 1, per connection.
+    std::uint32_t frame_id = 0;  ///< Counts up by one a frame sent, from 1, per connection; wraps.
     std::uint32_t camera_sequence =
         0;  ///< Of the newest camera message in the picture; 0 before any.
     std::uint32_t session_epoch = 0;  ///< Counts up whenever size or scene change.

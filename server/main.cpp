@@ -2,8 +2,7 @@
 #include "server/flags.h"
 #include "server/gl/context.h"
 #include "server/gl/gl_error.h"
-#include "server/render/renderer.h"
-#include "server/scene/scene_document.h"
+#include "server/renderer_service.h"
 #include "server/stream/listener.h"
 
 #include <boost/asio/ip/address.hpp>
@@ -18,40 +17,6 @@ namespace farlight {
 namespace {
 
 constexpr int kFailed = 1;
-
-/// What streaming needs, from the real renderer.
-class RendererService : public RenderService {
-public:
-    RendererService(Renderer& renderer, SceneDocument document)
-        : renderer_(renderer)
-        , loaded_(document)
-        , document_(std::move(document))
-    {
-    }
-    std::shared_ptr<const RendererDescription> description() const override
-    {
-        return renderer_.description();
-    }
-    void attach(std::shared_ptr<FrameSource> source) override
-    {
-        renderer_.attach(std::move(source));
-    }
-    void detach(const std::shared_ptr<FrameSource>& source) override { renderer_.detach(source); }
-    void wake() override { renderer_.wake(); }
-    void edit(const nlohmann::json& merge_patch, bool reset) override
-    {
-        SceneDocument next = (reset ? loaded_ : document_).edited(merge_patch);
-        renderer_.replace_scene(next.scene());
-        document_ = std::move(next);
-    }
-    std::string failure() const override { return renderer_.failure(); }
-    std::uint64_t frames_rendered() const override { return renderer_.frames_rendered(); }
-
-private:
-    Renderer& renderer_;
-    const SceneDocument loaded_;
-    SceneDocument document_;  ///< After all edits so far. The editing thread's.
-};
 
 int print_devices()
 {

@@ -87,13 +87,9 @@ void View::follow(const RenderRequest& request)
     if (request.reset_history || request.extent != full_extent_)
         has_history_ = false;
     full_extent_ = request.extent;
-    frame_index_ = has_history_ ? frame_index_ + 1 : 0;
-    if (!has_history_)
-        samples_ = 0;
-    const bool same = has_history_ && key == key_;
-    const bool averages = request.refine || s.denoiser == Denoiser::kAccumulate;
-    still_frames_ = same ? still_frames_ + 1 : 1;
-    mean_frames_ = averages ? (same ? mean_frames_ + 1 : 1) : 0;
+    counts_.begin({.has_history = has_history_,
+        .same_samples = key == key_,
+        .averages = request.refine || s.denoiser == Denoiser::kAccumulate});
     key_ = key;
     std::vector<double> filter = filter_key(s, drawn);
     new_filter_ = filter != filter_;
@@ -127,9 +123,9 @@ void View::upload_constants(const RenderRequest& request)
     if (moves())
         constants.background *= scene_.gpu->background_factor();
     constants.light_count = scene_.light_count;
-    constants.first_sample = samples_;
+    constants.first_sample = counts_.first_sample();
     constants.extent = {key_.extent.width, key_.extent.height};
-    constants.frame_index = frame_index_;
+    constants.frame_index = counts_.frame_index();
     constants.seed = request.settings.seed;
     constants_.update(object_bytes(constants));
     counters_.update(object_bytes(std::uint32_t{0}));
@@ -146,16 +142,14 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
     inputs.holes = scene_.look.holes;
     inputs.lens_radius = static_cast<float>(lens.radius);
     inputs.focus_distance = focus > 0 ? static_cast<float>(focus) : 1.0F;
-    if (request.settings.antialiasing && mean_frames_ > 0)
-        inputs.pixel_jitter = jitter_of(mean_frames_ - 1);
+    if (request.settings.antialiasing && counts_.mean() > 0)
+        inputs.pixel_jitter = jitter_of(counts_.mean() - 1);
     return inputs;
 }
 
 std::uint32_t View::accumulated_samples(const RenderSettings& settings) const
 {
-    const int frames = mean_frames_ > 0 ? mean_frames_ : still_frames_;
-    return static_cast<std::uint32_t>(frames)
-        * static_cast<std::uint32_t>(settings.samples_per_pixel);
+    return counts_.samples(settings.samples_per_pixel);
 }
 
 bool View::converged(const RenderSettings& settings) const
@@ -168,7 +162,7 @@ bool View::converged(const RenderSettings& settings) const
 bool View::keeps_flip(const RenderRequest& request)
 {
     const auto now = std::chrono::steady_clock::now();
-    const bool keeps = request.live && mean_frames_ > 1 && !converged(request.settings)
+    const bool keeps = request.live && counts_.mean() > 1 && !converged(request.settings)
         && now - flip_drawn_ < kFlipPeriod;
     if (!keeps)
         flip_drawn_ = now;
@@ -180,8 +174,8 @@ FramePlan View::plan_of(const RenderRequest& request)
     FramePlan plan;
     plan.settings = request.settings;
     plan.keeps_flip = request.settings.view == DebugView::kFlip && keeps_flip(request);
-    plan.mean_frames = std::max(mean_frames_, 1);
-    plan.frame_index = frame_index_;
+    plan.mean_frames = std::max(counts_.mean(), 1);
+    plan.frame_index = counts_.frame_index();
     plan.refine = request.refine;
     plan.scene_radius = scene_.look.radius;
     plan.origin = scene_.look.origin;
@@ -251,7 +245,7 @@ void View::begin(const RenderRequest& request)
     frame_.accumulated_samples = accumulated_samples(request.settings);
     frame_.converged = converged(request.settings);
     has_history_ = true;
-    samples_ += static_cast<std::uint32_t>(request.settings.samples_per_pixel);
+    counts_.end(request.settings.samples_per_pixel);
 }
 
 RenderedFrame View::finish()
@@ -271,7 +265,7 @@ RenderedFrame View::finish()
         .measured = looks.measures ? tile_sums(TileSums::kMeasured) : std::vector<glm::vec4>{},
         .extent = key_.extent,
         .samples_per_pixel = plan_.settings.samples_per_pixel,
-        .mean_frames = mean_frames_,
+        .mean_frames = counts_.mean(),
         .mean_weight = mean_weight(plan_),
         .reference_frames = looks.measured_against,
     });

@@ -6,6 +6,7 @@
 #include "server/gl/program_cache.h"
 #include "server/render/error_estimate.h"
 #include "server/render/error_schedule.h"
+#include "server/render/frame_counts.h"
 #include "server/render/readback.h"
 #include "server/render/renderer.h"
 #include "server/render/scene_look.h"
@@ -101,11 +102,7 @@ private:
     Extent prev_extent_;  ///< Drawn in the last frame.
     double prev_time_ = 0;
     bool has_history_ = false;
-    std::uint32_t samples_ =
-        0;  ///< A pixel, since the cut: no number is used twice when samples_per_pixel changes.
-    std::uint32_t frame_index_ = 0;  ///< Frames since the cut.
-    int still_frames_ = 0;  ///< Frames since the key last changed, with this one.
-    int mean_frames_ = 0;  ///< Frames in the running mean, with this one; 0: it does not run.
+    FrameCounts counts_;
     std::chrono::steady_clock::time_point flip_drawn_;  ///< Not just kept, when last asked for.
     Buffer tiles_;  ///< What the error estimate sums up.
     ErrorSchedule schedule_;

@@ -5,8 +5,18 @@
 #include <cassert>
 
 namespace farlight {
+namespace {
 
-Pacing::Pacing(int window) : window_(window)
+/// Whether `id` was counted after `other`: ids wrap round, and at most 2^31 lie between two.
+/// Source: RFC 1982, section 3.2.
+bool is_after(std::uint32_t id, std::uint32_t other)
+{
+    return static_cast<std::int32_t>(id - other) > 0;
+}
+
+}  // namespace
+
+Pacing::Pacing(int window, std::uint32_t last_sent) : window_(window), last_sent_(last_sent)
 {
     assert(window >= 1 && window <= static_cast<int>(protocol::kMaxInFlight));
 }
@@ -25,7 +35,7 @@ void Pacing::dropped()
 
 void Pacing::sent(std::uint32_t frame_id, Time now, std::optional<Time> asked)
 {
-    assert(preparing_ > 0 && frame_id > last_sent_);
+    assert(preparing_ > 0 && is_after(frame_id, last_sent_));
     --preparing_;
     last_sent_ = frame_id;
     unacknowledged_.push_back({frame_id, now, asked, std::nullopt});
@@ -41,10 +51,10 @@ void Pacing::written(std::uint32_t frame_id, Time now)
 
 std::optional<Pacing::Acknowledgement> Pacing::acknowledge(std::uint32_t frame_id, Time now)
 {
-    if (frame_id > last_sent_)
+    if (is_after(frame_id, last_sent_))
         return std::nullopt;
     std::optional<Acknowledgement> result;
-    while (!unacknowledged_.empty() && unacknowledged_.front().frame_id <= frame_id) {
+    while (!unacknowledged_.empty() && !is_after(unacknowledged_.front().frame_id, frame_id)) {
         const Sent& shown = unacknowledged_.front();
         result = {now - shown.sent, std::nullopt};
         if (shown.asked)

@@ -19,8 +19,8 @@ class Pacing {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `window` in [1, kMaxInFlight].
-    explicit Pacing(int window);
+    /// `window` in [1, kMaxInFlight]. Frame ids go on from `last_sent`.
+    explicit Pacing(int window, std::uint32_t last_sent = 0);
 
     int in_flight() const { return preparing_ + static_cast<int>(unacknowledged_.size()); }
     /// One more frame may be asked of the renderer.
@@ -30,7 +30,8 @@ public:
     void started();
     /// A frame that was started will never be sent.
     void dropped();
-    /// A frame that was started is handed to the socket. `frame_id` counts up from 1.
+    /// A frame that was started is handed to the socket. `frame_id` counts up from 1 and
+    /// wraps round.
     /// `asked`: arrival of the message that asked for it, if any.
     void sent(std::uint32_t frame_id, Time now, std::optional<Time> asked);
     /// The socket took the frame's last byte: from now on only the client is to blame.
@@ -57,8 +58,8 @@ private:
 
     int window_;
     int preparing_ = 0;  ///< Asked for, not yet sent.
-    std::uint32_t last_sent_ = 0;
-    std::deque<Sent> unacknowledged_;  ///< Ascending frame ids; at most window_.
+    std::uint32_t last_sent_;
+    std::deque<Sent> unacknowledged_;  ///< In the order sent; at most window_.
 };
 
 }  // namespace farlight

@@ -56,6 +56,21 @@ TEST(Pacing, RefusesAcknowledgementsOfFramesNotInFlight)
     EXPECT_FALSE(pacing.acknowledge(1, kFirstSent));  // a second time
 }
 
+TEST(Pacing, GoesOnWhenFrameIdsWrapRound)
+{
+    Pacing pacing(4, 4294967293U);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        pacing.started();
+        pacing.sent(4294967294U + i, kFirstSent, std::nullopt);  // the third is 0
+    }
+    EXPECT_FALSE(pacing.acknowledge(2, kFirstSent));  // never sent
+    EXPECT_FALSE(pacing.acknowledge(4294967293U, kFirstSent));  // long ago
+    EXPECT_TRUE(pacing.acknowledge(4294967294U, kFirstSent));
+    EXPECT_EQ(pacing.in_flight(), 3);
+    EXPECT_TRUE(pacing.acknowledge(1, kFirstSent));
+    EXPECT_EQ(pacing.in_flight(), 0);
+}
+
 TEST(Pacing, BlamesTheClientOnlyForFramesTheSocketIsDoneWith)
 {
     Pacing pacing(2);

@@ -1,0 +1,119 @@
+// Poison in a picture with everything that can be filtered: diffuse, specular and scattered light.
+#include "lab/device_scene.h"
+#include "lab/groups.h"
+#include "lab/meshes.h"
+#include "lab/poison.h"
+#include "lab/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace farlight::lab {
+namespace {
+
+constexpr Extent kSignalsExtent{24, 16};
+
+/// A box of dull metal, filled with thin fog, that glows.
+Scene foggy_metal()
+{
+    Material wall{"wall", glm::vec3(0.9F), glm::vec3(0.1F), true};
+    wall.metallic = 0.3F;
+    wall.roughness = 0.6F;
+    Scene scene = box_of(wall);
+    scene.medium.sigma_s = glm::vec3(0.2F);
+    scene.camera = {{0.3, 0.2, 1.2}, {0, 0, -1}, {0, 1, 0}, 60};
+    return scene;
+}
+
+/// A frame that `code` poisons, and the one after it.
+struct TwoFrames {
+    RenderedFrame poisoned;
+    RenderedFrame later;
+};
+
+TwoFrames seen_with(const DeviceScene& scene, std::uint32_t code, bool with_history)
+{
+    View view(scene.shared);
+    RenderRequest request = linear_request(scene.scene, kSignalsExtent, RenderSettings{});
+    for (int i = 0; i < 2 && with_history; ++i)
+        view.render(request);
+    request.settings.seed = code;
+    TwoFrames seen;
+    seen.poisoned = view.render(request);
+    request.settings.seed = 0;
+    seen.later = view.render(request);
+    return seen;
+}
+
+/// How far the poisoned run is off the clean one [of the mean]: a tap that is left out changes what
+/// the rest weighs, no more.
+double off_clean(const Image& poisoned, const Image& clean, bool without_poisoned)
+{
+    double most = 0;
+    for (int y = 0; y < kSignalsExtent.height; ++y)
+        for (int x = 0; x < kSignalsExtent.width; ++x) {
+            if (without_poisoned && x == kPoisonedX && y == kPoisonedY)
+                continue;
+            for (int c = 0; c < 3; ++c)
+                most = farther(most,
+                    std::abs(
+                        static_cast<double>(pixel(poisoned, x, y)[c] / pixel(clean, x, y)[c] - 1)));
+        }
+    return most;
+}
+
+void every_signal(Findings& findings, Length /*length*/)
+{
+    const DeviceScene clean(foggy_metal());
+    const PoisonedShaders shaders;
+    const DeviceScene poisoned(foggy_metal());
+    double others = 0;
+    double later = 0;
+    int uncounted = 0;
+    int counted_later = 0;
+    int frames = 0;
+    for (std::size_t stage = 0; stage < PoisonedShaders::stages().size(); ++stage)
+        for (std::uint32_t kind = 0; kind < kPoisonKinds; ++kind) {
+            const bool with_history = (stage + kind) % 2 == 0;
+            const std::uint32_t code = PoisonedShaders::code(stage, kind);
+            const TwoFrames seen = seen_with(poisoned, code, with_history);
+            const TwoFrames expected = seen_with(clean, code, with_history);
+            others = farther(others, off_clean(seen.poisoned.image, expected.poisoned.image, true));
+            later = farther(later, off_clean(seen.later.image, expected.later.image, false));
+            const bool counts = PoisonedShaders::stages()[stage].counted;
+            if (counts != (seen.poisoned.nonfinite_count > 0))
+                printf("%zu %u %u\n", stage, kind, seen.poisoned.nonfinite_count);
+            uncounted += counts == (seen.poisoned.nonfinite_count > 0) ? 0 : 1;
+            counted_later += seen.later.nonfinite_count == 0 ? 0 : 1;
+            ++frames;
+        }
+    findings.at_most("other pixels off the clean picture [of their value], "
+            + std::to_string(frames) + " poisoned frames",
+        others, 0.25);
+    findings.at_most("any pixel off it a frame later", later, 0.25);
+    findings.none("poisoned frames whose counter does not say so", uncounted);
+    findings.none("frames that count something a frame later", counted_later);
+}
+
+constexpr Case kSignalsCases[] = {
+    {"59d", "signals", "poison in specular and scattered light", Layer::kPicture,
+        "In a picture with all signals poison stays where it is, is counted, and is gone a frame "
+        "later.",
+        every_signal},
+};
+
+constexpr Guard kSignalsGuards[] = {
+    {"counted_specular", "59d", "path_trace/path_trace.comp",
+        "vec4(counted_light(specular), distance)", "vec4(specular, distance)"},
+    {"counted_scattered", "59d", "path_trace/path_trace.comp",
+        "vec4(counted_light(scattered * weight), 0.0)", "vec4(scattered * weight, 0.0)"},
+};
+
+}  // namespace
+
+Group signals_group()
+{
+    return {kSignalsCases, kSignalsGuards};
+}
+
+}  // namespace farlight::lab
