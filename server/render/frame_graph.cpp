@@ -2,12 +2,15 @@
 #include "server/render/frame_graph.h"
 
 #include "server/gl/gl_error.h"
+#include "server/host_guard.h"
 
 #include <algorithm>
 #include <cassert>
 
 namespace farlight {
 namespace {
+
+const HostGuard last_work_group("last_work_group");
 
 std::size_t bytes_per_texel(GLenum format)
 {
@@ -163,7 +166,7 @@ void FrameGraph::run(const Pass& pass, int pass_index)
     set_constants(pass, program);
     const GLint* group = program.work_group_size();
     const auto groups = [](int pixels, GLint size) {
-        return static_cast<GLuint>((pixels + size - 1) / size);
+        return static_cast<GLuint>((last_work_group ? pixels + size - 1 : pixels) / size);
     };
     glDispatchCompute(groups(pass.domain.width, group[0]), groups(pass.domain.height, group[1]), 1);
     timer_.end();

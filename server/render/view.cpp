@@ -1,6 +1,7 @@
 // Counting frames, filling the constants, running the graph, collecting the result.
 #include "server/render/view.h"
 
+#include "server/host_guard.h"
 #include "server/passes/error_estimate.h"
 #include "server/render/camera.h"
 #include "server/render/frame.h"
@@ -11,6 +12,10 @@
 
 namespace farlight {
 namespace {
+
+const HostGuard cuts_forget("cuts_forget");
+const HostGuard sizes_forget("sizes_forget");
+const HostGuard moved_since_last_frame("moved_since_last_frame");
 
 template <typename T> std::span<const std::byte> object_bytes(const T& object)
 {
@@ -84,7 +89,7 @@ void View::follow(const RenderRequest& request)
     const Extent drawn = scaled_extent(request.extent, s.resolution_scale);
     const SampleKey key{request.camera, drawn, s.samples_per_pixel, s.max_depth, s.roulette_depth,
         s.light_sampling, s.antialiasing, s.seed, scene_.version, moment_shown(request.time)};
-    if (request.reset_history || request.extent != full_extent_)
+    if ((cuts_forget && request.reset_history) || (sizes_forget && request.extent != full_extent_))
         has_history_ = false;
     full_extent_ = request.extent;
     counts_.begin({.has_history = has_history_,
@@ -102,7 +107,8 @@ double View::pose(double time)
 {
     const auto begun = std::chrono::steady_clock::now();
     const bool posed = moves() && scene_.gpu->pose(time, has_history_ ? prev_time_ : time);
-    prev_time_ = time;
+    if (moved_since_last_frame)
+        prev_time_ = time;
     return posed
         ? std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun)
               .count()

@@ -1,17 +1,21 @@
 // Pacing: see the header.
 #include "server/stream/pacing.h"
 
+#include "server/host_guard.h"
+
 #include <algorithm>
 #include <cassert>
 
 namespace farlight {
 namespace {
 
+const HostGuard ids_wrap_round("ids_wrap_round");
+
 /// Whether `id` was counted after `other`: ids wrap round, and at most 2^31 lie between two.
 /// Source: RFC 1982, section 3.2.
 bool is_after(std::uint32_t id, std::uint32_t other)
 {
-    return static_cast<std::int32_t>(id - other) > 0;
+    return ids_wrap_round ? static_cast<std::int32_t>(id - other) > 0 : id > other;
 }
 
 }  // namespace
