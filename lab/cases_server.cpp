@@ -259,7 +259,8 @@ void things_come_and_go(Findings& findings, Length /*length*/)
     const json guest = {{"name", "guest"}, {"material", "white"},
         {"sphere", {{"center", {-0.6, 0.9, 1}}, {"radius", 0.6}}}};
     const json poster = {{"name", "poster"}, {"material", "white"},
-        {"quad", {{"corner", {0.4, 0.8, -1.9999}}, {"edge_u", {1.6, 0, 0}}, {"edge_v", {0, 1.4, 0}}}}};
+        {"quad",
+            {{"corner", {0.4, 0.8, -1.9999}}, {"edge_u", {1.6, 0, 0}}, {"edge_v", {0, 1.4, 0}}}}};
     objects.push_back(guest);
     objects.push_back(poster);
     double new_pixels = 0;
