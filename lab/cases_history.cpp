@@ -12,7 +12,7 @@
 namespace farlight::lab {
 namespace {
 
-struct Agreement {
+struct LengthAgreement {
     int pixels = 0;
     int differ = 0;
     int differ_inside = 0;  ///< Away from edges, in all frames so far that a history goes back.
@@ -35,11 +35,11 @@ Scene still_life()
 }
 
 /// Lengths along a script of cameras, beside the oracle's; every frame compared.
-Agreement follow_script(const Scene& source, const std::vector<CameraPose>& script)
+LengthAgreement follow_script(const Scene& source, const std::vector<CameraPose>& script)
 {
     const DeviceScene scene(source);
     View view(scene.shared);
-    Agreement agreement;
+    LengthAgreement agreement;
     Lengths old;
     Seen before;
     for (std::size_t frame = 0; frame < script.size(); ++frame) {
@@ -71,7 +71,7 @@ Agreement follow_script(const Scene& source, const std::vector<CameraPose>& scri
     return agreement;
 }
 
-void report(Findings& findings, const Agreement& agreement, int least_new)
+void report(Findings& findings, const LengthAgreement& agreement, int least_new)
 {
     findings.at_most(
         "share of pixels whose history is not the oracle's, of " + std::to_string(agreement.pixels),
