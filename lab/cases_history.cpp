@@ -120,6 +120,21 @@ void turns_and_zooms(Findings& findings, Length /*length*/)
     report(findings, follow_script(scene, script), 5 * kRemembered.width * kRemembered.height);
 }
 
+/// Into the ball, out of it, and through the wall: surfaces come as near as they can and are behind
+/// a frame later.
+void through_things(Findings& findings, Length /*length*/)
+{
+    const Scene scene = still_life();
+    std::vector<CameraPose> script;
+    for (double z = 1; z > -6; z -= 0.27) {
+        CameraPose pose = scene.camera;
+        pose.position = {0.3, 0.05, z};
+        pose.target = {0.28, 0, z - 1};
+        script.push_back(pose);
+    }
+    report(findings, follow_script(scene, script), 1000);
+}
+
 /// A floor without end, seen after a step back: what is now ahead was behind.
 void behind_is_not_ahead(Findings& findings, Length /*length*/)
 {
@@ -269,6 +284,9 @@ void strange_cameras(Findings& findings, Length /*length*/)
 constexpr Case kHistoryCases[] = {
     {"25", "history", "behind the camera", Layer::kSequence,
         "What was behind last frame's camera has no history.", behind_is_not_ahead},
+    {"25b", "history", "through things", Layer::kSequence,
+        "A camera that goes through walls and balls keeps the histories that the oracle keeps.",
+        through_things},
     {"62", "history", "lengths of histories", Layer::kSequence,
         "A pixel's history is as long as an oracle in double precision says.",
         lengths_are_the_oracles},
@@ -286,7 +304,7 @@ constexpr Guard kHistoryGuards[] = {
     {"ahead", "25", "svgf/past.glsl",
         "uintBitsToFloat(surface.x);\n    Past p;\n    p.exists = motion.w > 0.0;",
         "uintBitsToFloat(surface.x);\n    Past p;\n    p.exists = true;"},
-    {"plane_distance", "63", "svgf/past.glsl", "plane_distance <= p.tolerance",
+    {"plane_distance", "25b 63", "svgf/past.glsl", "plane_distance <= p.tolerance",
         "plane_distance <= 1e6 * p.tolerance"},
     {"up_along_the_view", "63b"},
     {"least_of_taps", "62 64", "svgf/temporal.comp",

@@ -314,7 +314,6 @@ constexpr Case kServerCases[] = {
 constexpr Guard kServerGuards[] = {
     {"cuts_forget", "63c"},
     {"last_work_group", "68"},
-    {"moved_since_last_frame", "68c"},
     {"same_thing", "63d", "svgf/past.glsl", "identity.xy == p.ids && plane", "plane"},
     {"sizes_forget", "68b"},
 };

@@ -21,6 +21,7 @@ Group history_group();
 Group laws_group();
 Group light_group();
 Group normals_group();
+Group motion_group();
 Group origin_group();
 Group packing_group();
 Group poison_group();
@@ -48,6 +49,7 @@ inline std::vector<Group> all_groups()
         laws_group(),
         light_group(),
         normals_group(),
+        motion_group(),
         origin_group(),
         packing_group(),
         poison_group(),

@@ -103,12 +103,13 @@ void run_mutations(const Options& options, std::span<const Case> cases, Sheet& s
         }
 }
 
-/// Cases that no guard of ours is known to keep: nothing proves that they can fail.
-std::vector<std::string> unproven(std::span<const Case> cases)
+/// Cases that hold and that no guard of ours is known to keep: nothing proves that they can fail.
+std::vector<std::string> unproven(const Sheet& sheet)
 {
     std::vector<std::string> ids;
-    for (const Case& one : cases) {
-        bool kept = false;
+    for (const Judged& judged : sheet.cases) {
+        const Case& one = judged.hard_case;
+        bool kept = judged.verdict() != "ok";
         for (const Guard& guard : all_guards()) {
             const std::vector<std::string> by = cases_kept_by(guard);
             kept = kept || std::find(by.begin(), by.end(), one.id) != by.end();
@@ -179,7 +180,7 @@ int run(const Options& options)
     }
     if (options.mutations) {
         run_mutations(options, cases, sheet);
-        for (const std::string& id : unproven(cases))
+        for (const std::string& id : unproven(sheet))
             lines << "no guard is known that keeps case " << id << "\n";
     }
     lines << summary_of(sheet) << "\n";

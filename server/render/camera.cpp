@@ -9,6 +9,7 @@ namespace farlight {
 namespace {
 
 const HostGuard up_along_the_view("up_along_the_view");
+const HostGuard up_is_upright("up_is_upright");
 
 /// The unit vector along v, or `fallback` when v has no direction.
 glm::dvec3 direction_or(const glm::dvec3& v, const glm::dvec3& fallback)
@@ -38,7 +39,7 @@ CameraBasis camera_basis(const CameraPose& pose)
             < 1e-6)  // sine of the angle: closer than this, rounding would choose the roll
         right = glm::cross(basis.forward, least_aligned_axis(basis.forward));
     basis.right = glm::normalize(right);
-    basis.up = glm::cross(basis.right, basis.forward);
+    basis.up = up_is_upright ? glm::cross(basis.right, basis.forward) : up;
     return basis;
 }
 

@@ -1,6 +1,8 @@
 // Tracks between their keys, and nodes through their parents. Double precision throughout.
 #include "server/scene/animation.h"
 
+#include "server/host_guard.h"
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -8,6 +10,8 @@
 
 namespace farlight {
 namespace {
+
+const HostGuard moments_in_doubles("moments_in_doubles");
 
 constexpr std::uint32_t kNoParent = 0xffffffff;
 
@@ -20,6 +24,8 @@ struct Between {
 
 Between find(const Track& track, double time)
 {
+    if (!moments_in_doubles)
+        time = static_cast<float>(time);
     // Any time, however long after the start; the remainder is exact.
     if (track.period > 0)
         time -= track.period * std::floor(time / track.period);
