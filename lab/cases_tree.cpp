@@ -305,7 +305,7 @@ constexpr Case kTreeCases[] = {
 };
 
 constexpr Guard kTreeGuards[] = {
-    {"boxes_as_wide_as_triangles", "8 9", "geometry/traverse.glsl",
+    {"boxes_as_wide_as_triangles", "8 9 M4", "geometry/traverse.glsl",
         "5.0 * 5.9604645e-8 * (reach + permute(reach, ray.axis).z)", "vec3(0.0)"},
     {"tiny_is_none", "9", "geometry/ray.glsl", "mix(vec3(0.0), ray.direction, moves)",
         "ray.direction"},

@@ -13,10 +13,12 @@ struct Group {
 
 Group accumulation_group();
 Group bsdf_group();
+Group build_group();
 Group display_group();
 Group environment_group();
 Group estimators_group();
 Group filter_group();
+Group garbage_group();
 Group history_group();
 Group laws_group();
 Group light_group();
@@ -41,10 +43,12 @@ inline std::vector<Group> all_groups()
     return {
         accumulation_group(),
         bsdf_group(),
+        build_group(),
         display_group(),
         environment_group(),
         estimators_group(),
         filter_group(),
+        garbage_group(),
         history_group(),
         laws_group(),
         light_group(),

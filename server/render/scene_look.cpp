@@ -1,12 +1,15 @@
 // What of a scene shows at a glance.
 #include "server/render/scene_look.h"
 
+#include "server/host_guard.h"
 #include "server/scene/material_response.h"
 
 #include <algorithm>
 
 namespace farlight {
 namespace {
+
+const HostGuard radius_of_nothing("radius_of_nothing");
 
 bool any_light(const Scene& scene)
 {
@@ -44,7 +47,7 @@ SceneLook look_of(const Scene& scene)
 {
     SceneLook look;
     const Bounds bounds = scene_bounds(scene);
-    const double radius = bounds.empty() ? 1 : bounds.radius();
+    const double radius = bounds.empty() && radius_of_nothing ? 1 : bounds.radius();
     look.background = scene.background;
     look.radius = static_cast<float>(radius);
     look.lens = scene.lens;

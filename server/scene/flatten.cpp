@@ -1,6 +1,7 @@
 // Every object's shape in the space of its group.
 #include "server/scene/flatten.h"
 
+#include "server/host_guard.h"
 #include "server/scene/deform.h"
 #include "server/scene/instance_transform.h"
 
@@ -11,6 +12,8 @@
 
 namespace farlight {
 namespace {
+
+const HostGuard flat_drops_unbounded("flat_drops_unbounded");
 
 const Mesh* mesh_of(const Scene& scene, const Object& object)
 {
@@ -293,7 +296,7 @@ bool has_area(const std::array<glm::vec3, 3>& vertices)
     const auto& [a, b, c] = vertices;
     const double area =
         glm::length(glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a)));
-    return area > 0 && std::isfinite(area);
+    return area > 0 && (std::isfinite(area) || !flat_drops_unbounded);
 }
 
 FlatScene flatten(const Scene& scene)

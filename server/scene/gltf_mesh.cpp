@@ -46,7 +46,8 @@ void check_corners(const std::vector<std::uint32_t>& corners, std::size_t positi
         refuse(place, std::to_string(corners.size()) + " corners", "at least one triangle");
     if (mode == kTriangles && corners.size() % 3 != 0)
         refuse(place, std::to_string(corners.size()) + " corners", "a multiple of 3");
-    for (std::size_t i = 0; i < corners.size(); ++i)
+    // Triangles with such corners are left out, counted (mesh_repair.h); a line cannot be.
+    for (std::size_t i = 0; is_strokes(mode) && i < corners.size(); ++i)
         if (corners[i] >= positions)
             refuse(place,
                 "index " + std::to_string(corners[i]) + " as element " + std::to_string(i),

@@ -16,6 +16,7 @@ namespace {
 
 const HostGuard repair_drops_no_area("repair_drops_no_area");
 const HostGuard least_direction("least_direction");
+const HostGuard repair_drops_unbounded("repair_drops_unbounded");
 
 /// Twice the area times the unit normal; zero where the corners lie on a line as far as float
 /// positions can tell.
@@ -145,6 +146,7 @@ bool is_bounded(const glm::vec3& p)
 MeshRepairs& MeshRepairs::operator+=(const MeshRepairs& other)
 {
     zero_area_triangles += other.zero_area_triangles;
+    astray_triangles += other.astray_triangles;
     unbounded_triangles += other.unbounded_triangles;
     replaced_normals += other.replaced_normals;
     dropped_tangents += other.dropped_tangents;
@@ -165,6 +167,7 @@ std::vector<std::string> MeshRepairs::notes() const
             notes.push_back(std::to_string(count) + " " + (count == 1 ? one : many) + what);
     };
     note(zero_area_triangles, "triangle", "triangles", " of zero area left out");
+    note(astray_triangles, "triangle", "triangles", " with a corner that is no position left out");
     note(unbounded_triangles, "triangle", "triangles",
         " with a corner that is not finite (or beyond 1e11) left out");
     note(replaced_normals, "shading normal", "shading normals",
@@ -189,12 +192,17 @@ MeshRepairs repair_mesh(Mesh& mesh)
     assert(mesh.normals.empty() || mesh.normals.size() == mesh.positions.size());
     MeshRepairs repairs;
     const bool drops_no_area(repair_drops_no_area);
+    const bool drops_unbounded(repair_drops_unbounded);
+    const auto unbounded = [&](std::uint32_t corner) {
+        return !is_bounded(mesh.positions[corner]);
+    };
     std::vector<glm::uvec3> kept;
     kept.reserve(mesh.triangles.size());
     for (const glm::uvec3& triangle : mesh.triangles) {
-        assert(std::max({triangle.x, triangle.y, triangle.z}) < mesh.positions.size());
-        if (!is_bounded(mesh.positions[triangle.x]) || !is_bounded(mesh.positions[triangle.y])
-            || !is_bounded(mesh.positions[triangle.z]))
+        if (std::max({triangle.x, triangle.y, triangle.z}) >= mesh.positions.size())
+            ++repairs.astray_triangles;
+        else if (drops_unbounded
+            && (unbounded(triangle.x) || unbounded(triangle.y) || unbounded(triangle.z)))
             ++repairs.unbounded_triangles;
         else if (drops_no_area && area_vector(mesh, triangle) == glm::dvec3(0))
             ++repairs.zero_area_triangles;

@@ -16,6 +16,7 @@ bool is_bounded(const glm::vec3& p);
 
 struct MeshRepairs {
     std::size_t zero_area_triangles = 0;  ///< Dropped.
+    std::size_t astray_triangles = 0;  ///< Dropped: a corner is no position.
     std::size_t unbounded_triangles = 0;  ///< Dropped: a corner is not finite or too far out.
     std::size_t replaced_normals = 0;  ///< Not finite or zero; now the mean of the faces around.
     std::size_t dropped_tangents = 0;  ///< Not finite or zero.
@@ -31,10 +32,10 @@ struct MeshRepairs {
     std::vector<std::string> notes() const;
 };
 
-/// Drops triangles that have no area or no finite corner, then vertices that no triangle needs any
-/// more; brings normals and tangents to unit length, the rest to finite numbers. The mesh may come
-/// out empty.
-/// Asserts that triangles index positions and that there are as many normals as positions, or none.
+/// Drops triangles that have no area or no finite corner or a corner that is no position, then
+/// vertices that no triangle needs any more; brings normals and tangents to unit length, the rest
+/// to finite numbers. The mesh may come out empty. Asserts that there are as many normals as
+/// positions, or none.
 MeshRepairs repair_mesh(Mesh& mesh);
 
 /// A cube from -0.5 to 0.5 on each axis, faces flat and outward.

@@ -1,6 +1,7 @@
 // The steps from a Scene to its tables: flatten, tree, effects, pack.
 #include "server/scene/packed_scene.h"
 
+#include "server/host_guard.h"
 #include "server/scene/albedo_tables.h"
 #include "server/scene/bvh.h"
 #include "server/scene/materials.h"
@@ -14,13 +15,15 @@
 namespace farlight {
 namespace {
 
+const HostGuard round_boxes_widened("round_boxes_widened");
+
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// A sphere's or disk's extremes are rounded: one step outwards keeps them inside.
 PrimitiveBounds widened(const glm::vec3& lower, const glm::vec3& upper)
 {
-    PrimitiveBounds bounds{};
-    for (int axis = 0; axis < 3; ++axis) {
+    PrimitiveBounds bounds{lower, upper};
+    for (int axis = 0; round_boxes_widened && axis < 3; ++axis) {
         bounds.lower[axis] = std::nextafter(lower[axis], -kInfinity);
         bounds.upper[axis] = std::nextafter(upper[axis], kInfinity);
     }

@@ -1,6 +1,7 @@
 // Four-wide from the top: a range of entries is halved, its larger part again, until it is in four.
 #include "server/scene/top_level.h"
 
+#include "server/host_guard.h"
 #include "shaders/shared/scene_layout.h"
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 
 namespace farlight {
 namespace {
+
+const HostGuard top_level_within_its_stack("top_level_within_its_stack");
 
 using Entries = std::span<TopLevelEntry>;
 
@@ -182,7 +185,8 @@ public:
         const auto fits = [&](Entries part) {
             return balanced_stack(part.size()) <= stack - static_cast<int>(parts.count) + 1;
         };
-        if (!std::all_of(parts.entries.begin(),
+        if (top_level_within_its_stack
+            && !std::all_of(parts.entries.begin(),
                 parts.entries.begin() + static_cast<std::ptrdiff_t>(parts.count), fits))
             parts = split(entries, split_at_median, true);
         const unsigned at = used_;

@@ -170,32 +170,5 @@ TEST(RendererTest, AnUnknownDeviceIsRefusedWithWhatThereIs)
     EXPECT_THROW(Renderer(room(), options), std::runtime_error);
 }
 
-/// Scenes at the edges of what can be described draw too.
-TEST(RendererTest, EmptyBackgroundOnlyAndSingleObjectScenesDraw)
-{
-    Scene nothing;
-    Scene sky;
-    sky.background = glm::vec3(1);
-    Scene lamp;
-    lamp.materials.push_back({"light", glm::vec3(0), glm::vec3(1)});
-    lamp.objects.push_back({"lamp", 0, Sphere{}});
-    Scene lit_by_sky = scene_of(bumpy_sphere(12, 6));
-    lit_by_sky.background = glm::vec3(1);
-    Scene vanishing = lamp;  // what rounds to nothing in single precision is not there
-    vanishing.objects.push_back({"far", 0, Quad{{1e10, 0, 0}, {1e-3, 0, 0}, {0, 1e-3, 0}}});
-    Scene dark = sky;
-    dark.materials.push_back({"light", glm::vec3(0), glm::vec3(1)});
-    dark.objects.push_back({"no area", 0, Sphere{{0, 0, 0}, 1e-25}});
-    for (const Scene& scene : {nothing, sky, lamp, lit_by_sky, vanishing, dark}) {
-        Renderer renderer(scene, small_options());
-        for (const Extent extent : {Extent{1, 1}, Extent{1, 33}, Extent{31, 17}}) {
-            const auto frames = attach(renderer, extent, 2)->wait_for_all();
-            ASSERT_EQ(frames.size(), 2U);
-            EXPECT_EQ(frames[1].error, "");
-            EXPECT_EQ(frames[1].nonfinite_count, 0U);
-        }
-    }
-}
-
 }  // namespace
 }  // namespace farlight

@@ -151,8 +151,8 @@ INSTANTIATE_TEST_SUITE_P(Meshes, BadGltfTest,
         BadGltf{"FewerNormals", "/accessors/2",
             R"({"bufferView": 0, "count": 2, "componentType": 5126, "type": "VEC3"})", "loaded"},
         BadGltf{"IndexBeyondPositions", "/accessors/0/count", "2",
-            "/meshes/0/primitives/0/indices: found index 2 as element 2, expected less than 2, "
-            "the number of positions"},
+            "/meshes/0/primitives/0: found no triangle that is left; 1 triangle with a corner that "
+            "is no position left out, expected at least one triangle that has an area"},
         BadGltf{"TwoCorners", "/accessors/1/count", "2",
             "/meshes/0/primitives/0/indices: found 2 corners, expected at least one triangle"},
         BadGltf{"AllZeros", "/accessors/0",

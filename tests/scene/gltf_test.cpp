@@ -259,6 +259,15 @@ TEST_F(GltfTest, PointsAndLinesAreThinSolids)
     }
 }
 
+TEST_F(GltfTest, ALineToNoPositionIsRefused)
+{
+    GltfBuilder gltf;
+    const int positions = gltf.add<float>(kTriangle, "VEC3");
+    const int indices = gltf.add<std::uint8_t>({0, 3}, "SCALAR");
+    gltf.add_mesh({{"attributes", {{"POSITION", positions}}}, {"mode", 1}, {"indices", indices}});
+    EXPECT_THROW(load(gltf), SceneError);
+}
+
 TEST_F(GltfTest, BadTrianglesAreDroppedAndCounted)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
@@ -266,13 +275,15 @@ TEST_F(GltfTest, BadTrianglesAreDroppedAndCounted)
     GltfBuilder gltf;
     const int positions =
         gltf.add<float>({nan, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, inf, 0, 3, 0, 0}, "VEC3");
-    const int indices = gltf.add<std::uint8_t>({0, 1, 2, 1, 2, 3, 1, 2, 4, 1, 2, 5}, "SCALAR");
+    const int indices =
+        gltf.add<std::uint8_t>({0, 1, 2, 1, 2, 3, 1, 2, 4, 1, 2, 5, 1, 2, 6}, "SCALAR");
     gltf.add_mesh({{"attributes", {{"POSITION", positions}}}, {"indices", indices}});
     const Scene scene = load(gltf);
     EXPECT_THAT(only_mesh(scene).triangles, ElementsAre(glm::uvec3(0, 1, 2)));
     EXPECT_THAT(only_mesh(scene).positions,
         ElementsAre(glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)));
     EXPECT_THAT(scene.notes, Contains("1 triangle of zero area left out"));
+    EXPECT_THAT(scene.notes, Contains("1 triangle with a corner that is no position left out"));
     EXPECT_THAT(scene.notes,
         Contains("2 triangles with a corner that is not finite (or beyond 1e11) left out"));
 }
