@@ -223,23 +223,33 @@ void edges_are_pixels_like_others(Findings& findings, Length /*length*/)
 {
     Texels in_nan;
     Texels in_light;
-    Texels mirrored;
     const WholeFilter filter = filtered_in_band(NAN, false, in_nan);
     const WholeFilter bright = filtered_in_band(1, false, in_light);
-    filtered_in_band(NAN, true, mirrored);
-    double off = 0;
     int differ = 0;
     for (int y = 0; y < kShown.height; ++y)
-        for (int x = 0; x < kShown.width; ++x) {
-            const double here = in_nan[place_of(x, y)].x;
-            off = farther(off, std::abs(mirrored[place_of(kShown.width - 1 - x, y)].x / here - 1));
+        for (int x = 0; x < kShown.width; ++x)
             differ += in_nan[place_of(x, y)] == in_light[place_of(x, y)] ? 0 : 1;
-        }
     findings.none("pixels that show what is beyond the frame", differ);
     findings.none("values that were no light", filter.bad_values() + bright.bad_values());
     findings.at_least("shortest history after 6 frames", filter.shortest_history(), 6);
+}
+
+void mirrored_light(Findings& findings, Length /*length*/)
+{
+    Texels plain;
+    Texels mirrored;
+    const WholeFilter filter = filtered_in_band(NAN, false, plain);
+    const WholeFilter other = filtered_in_band(NAN, true, mirrored);
+    double off = 0;
+    for (int y = 0; y < kShown.height; ++y)
+        for (int x = 0; x < kShown.width; ++x) {
+            const double here = plain[place_of(x, y)].x;
+            off = farther(off, std::abs(mirrored[place_of(kShown.width - 1 - x, y)].x / here - 1));
+        }
     // Sums in another order: 25 roundings a pass.
     findings.at_most("mirrored light off the mirrored picture", off, 1e-4);
+    findings.none(
+        "shortest histories apart", std::abs(filter.shortest_history() - other.shortest_history()));
 }
 
 /// What has no depth now has no history; what had none is no history.
@@ -295,9 +305,10 @@ constexpr Case kFilterCases[] = {
         "A pixel whose depth is no number starts anew, and nobody takes its light.",
         no_depth_no_history},
     {"61", "filter", "the frame's edge", Layer::kFunction,
-        "Nothing from beyond the frame is looked at, its edge has histories as all of it has, and "
-        "mirrored light gives the mirrored picture.",
+        "Nothing from beyond the frame is looked at, and its edge has histories as all of it has.",
         edges_are_pixels_like_others},
+    {"M7", "filter", "mirrored light", Layer::kFunction,
+        "Mirrored light gives the mirrored picture.", mirrored_light},
 };
 
 constexpr Guard kFilterGuards[] = {
@@ -311,7 +322,7 @@ constexpr Guard kFilterGuards[] = {
         "return 1e-3 * abs(p.depth - depth_q) / max(expected, 1e-37);"},
     {"accept_if", "60", "svgf/past.glsl", "plane_distance <= p.tolerance",
         "!(plane_distance > p.tolerance)"},
-    {"edge_of_past", "61", "lib/frame.glsl",
+    {"edge_of_past", "M7", "lib/frame.glsl",
         "all(lessThan(px, ivec2(frame.prev_camera.width, frame.prev_camera.height)))",
         "all(lessThan(px + 1, ivec2(frame.prev_camera.width, frame.prev_camera.height)))"},
     {"tap_in_frame", "61", "svgf/atrous.comp",

@@ -1,6 +1,7 @@
 // Scale: scenes of any size and in any place, and rays that start on what they left.
 #include "lab/groups.h"
 #include "lab/meshes.h"
+#include "lab/moved.h"
 #include "lab/ray_probe.h"
 #include "server/render/camera.h"
 
@@ -30,30 +31,25 @@ Scene furnished_room(double scale)
     return scene;
 }
 
-/// Frames 1 to 6 with a move of the camera between, and what is remembered of them.
-struct Pictures {
+/// The last of six frames of a camera that moves, of a room of some size and in some place.
+struct Sized {
     std::vector<float> values;
-    std::vector<float> lengths;  ///< Of the last frame's histories.
-    std::uint32_t nonfinite = 0;
+    std::uint32_t nonfinite = 0;  ///< Of all six.
 };
 
-Pictures pictures_at(double scale)
+Sized last_frame_at(const DeviceScene& scene, double scale, DebugView shown)
 {
-    const DeviceScene scene(furnished_room(scale));
-    Pictures pictures;
-    for (const DebugView shown : {DebugView::kFinal, DebugView::kHistoryLength}) {
-        View view(scene.shared);
-        RenderRequest request = linear_request(scene.scene, kSmall, {});
-        request.settings.view = shown;
-        RenderedFrame frame;
-        for (int i = 0; i < 6; ++i) {
-            request.camera.position.x += 0.03125 * scale;
-            frame = view.render(request);
-            pictures.nonfinite += frame.nonfinite_count;
-        }
-        (shown == DebugView::kFinal ? pictures.values : pictures.lengths) = values_of(frame.image);
+    View view(scene.shared);
+    RenderRequest request = linear_request(scene.scene, kSmall, {});
+    request.settings.view = shown;
+    Sized sized;
+    for (int i = 0; i < 6; ++i) {
+        request.camera.position.x += 0.03125 * scale;
+        const RenderedFrame frame = view.render(request);
+        sized.nonfinite += frame.nonfinite_count;
+        sized.values = values_of(frame.image);
     }
-    return pictures;
+    return sized;
 }
 
 double different(const std::vector<float>& a, const std::vector<float>& b)
@@ -64,24 +60,52 @@ double different(const std::vector<float>& a, const std::vector<float>& b)
     return count;
 }
 
-void size_does_not_show(Findings& findings, Length length)
+/// `draw(scale)` at all these powers of two against that at 1. Returns the latter.
+template <typename Draw>
+Sized report_sizes(Findings& findings, const std::vector<int>& powers, const Draw& draw)
 {
-    const Pictures at_one = pictures_at(1);
-    const std::vector<int> powers = length == Length::kLong
-        ? std::vector{-13, -10, -7, -4, -1, 1, 4, 7, 10, 17}
-        : std::vector{-13, 17};
+    Sized at_one = draw(1.0);
     findings.none("non-finite values at 2^0", at_one.nonfinite);
     for (const int power : powers) {
-        const Pictures scaled = pictures_at(std::ldexp(1.0, power));
+        const Sized sized = draw(std::ldexp(1.0, power));
         const std::string name = "2^" + std::to_string(power) + ": ";
-        findings.none(name + "non-finite values", scaled.nonfinite);
+        findings.none(name + "non-finite values", sized.nonfinite);
         findings.none(name + "values of other bits, of " + std::to_string(at_one.values.size()),
-            different(scaled.values, at_one.values));
-        findings.none(
-            name + "histories of another length", different(scaled.lengths, at_one.lengths));
+            different(sized.values, at_one.values));
     }
-    const float longest = *std::max_element(at_one.lengths.begin(), at_one.lengths.end());
+    return at_one;
+}
+
+std::vector<int> tiny_and_huge(Length length)
+{
+    return length == Length::kLong ? std::vector{-20, -13, 17, 24} : std::vector{-13, 17};
+}
+
+void size_does_not_show(Findings& findings, Length length)
+{
+    report_sizes(findings, tiny_and_huge(length), [](double scale) {
+        return last_frame_at(DeviceScene(furnished_room(scale)), scale, DebugView::kFinal);
+    });
+}
+
+void size_is_not_remembered(Findings& findings, Length length)
+{
+    const Sized at_one = report_sizes(findings, tiny_and_huge(length), [](double scale) {
+        return last_frame_at(DeviceScene(furnished_room(scale)), scale, DebugView::kHistoryLength);
+    });
+    const float longest = *std::max_element(at_one.values.begin(), at_one.values.end());
     findings.at_least("longest history of 6 frames", longest, 6);
+}
+
+/// As the server has it, far from the origin: what the scene is counted from scales with it.
+void scaled_from_afar(Findings& findings, Length length)
+{
+    const std::vector<int> powers =
+        length == Length::kLong ? std::vector{-10, -7, -4, -1, 1, 4, 7, 10} : std::vector{-10, 10};
+    report_sizes(findings, powers, [](double scale) {
+        const Scene far = moved(furnished_room(scale), scale * glm::dvec3(1e6, -3e5, 12345.678));
+        return last_frame_at(DeviceScene(load_onto_device(far)), scale, DebugView::kFinal);
+    });
 }
 
 /// White surfaces under a white sky vanish: a pixel is below 1 only where a ray was caught on the
@@ -252,28 +276,35 @@ constexpr Case kScaleCases[] = {
         "under a white sky cannot be seen.",
         white_things_vanish},
     {"20", "scale", "size does not show", Layer::kSequence,
-        "A scene 2^k times as large, seen from 2^k times as far, gives the same bits, histories "
-        "included: no epsilon is absolute.",
+        "A scene 2^k times as large, seen from 2^k times as far, gives the same bits: no epsilon "
+        "is absolute.",
         size_does_not_show},
     {"21", "scale", "lamps light what faces them", Layer::kPicture,
         "The ground below a lamp is as bright as the closed form says, from a micrometre to the "
         "size of a planet.",
         lamps_light_what_faces_them},
+    {"23", "scale", "size is not remembered", Layer::kSequence,
+        "A tenth of a millimetre or a hundred kilometres large, a scene has the same histories.",
+        size_is_not_remembered},
     {"24", "scale", "cameras in odd places", Layer::kPicture,
         "A camera on a floor, in a corner, in a ball or in a mesh sees finite light and the sides "
         "of "
         "things that face it.",
         cameras_in_odd_places},
+    {"M1", "scale", "scaled from afar", Layer::kSequence,
+        "Geometry and camera times 2^k, a million times as far away as they are large, give the "
+        "same bits.",
+        scaled_from_afar},
 };
 
 constexpr Guard kScaleGuards[] = {
     {"offset_by_rounding", "19", "geometry/surface.glsl", "const float POSITION_ULPS = 16.0 *",
         "const float POSITION_ULPS = 1.0 *"},
-    {"offset_of_the_scene", "20", "geometry/surface.glsl",
+    {"offset_of_the_scene", "20 M1", "geometry/surface.glsl",
         "{ return POSITION_ULPS * max_component(extent); }", "{ return 3e-4; }"},
     {"depth_in_footprints", "20", "svgf/surface.glsl",
         "0.1 * frame.camera.pixel_footprint * p.depth;", "1e-2;"},
-    {"plane_in_footprints", "20", "svgf/past.glsl",
+    {"plane_in_footprints", "23", "svgf/past.glsl",
         "reproject_depth * frame.prev_camera.pixel_footprint * (depth + motion.z);",
         "reproject_depth * 1e-3;"},
     {"either_side_faces", "24", "geometry/surface.glsl",
