@@ -20,10 +20,12 @@ Group estimators_group();
 Group filter_group();
 Group garbage_group();
 Group history_group();
+Group insides_group();
 Group laws_group();
 Group light_group();
-Group normals_group();
+Group media_group();
 Group motion_group();
+Group normals_group();
 Group origin_group();
 Group packing_group();
 Group poison_group();
@@ -50,10 +52,12 @@ inline std::vector<Group> all_groups()
         filter_group(),
         garbage_group(),
         history_group(),
+        insides_group(),
         laws_group(),
         light_group(),
-        normals_group(),
+        media_group(),
         motion_group(),
+        normals_group(),
         origin_group(),
         packing_group(),
         poison_group(),

@@ -15,41 +15,26 @@ namespace {
 
 constexpr int kTile = 8;
 
-/// Mean luminance of a tile's pixels and the variance of that mean.
-struct TileMean {
-    double mean = 0;
-    double variance = 0;
-};
-
-TileMean tile_mean(const Image& image, int left, int top)
+/// That the pixels of a tile have the mean 0 (Student 1908): pixels of one picture less those of
+/// another, so that what both show does not count as noise.
+double tile_p_value(const Image& difference, int left, int top, double rounding)
 {
     double sum = 0;
     double squares = 0;
     for (int y = top; y < top + kTile; ++y)
         for (int x = left; x < left + kTile; ++x) {
-            const glm::dvec3 p = pixel(image, x, y);
+            const glm::dvec3 p = pixel(difference, x, y);
             const double value = (p.x + p.y + p.z) / 3;
             sum += value;
             squares += value * value;
         }
     constexpr double kCount = kTile * kTile;
     const double mean = sum / kCount;
-    return {mean, std::max(squares / kCount - mean * mean, 0.0) / (kCount - 1)};
-}
-
-/// Welch 1947. What is not noise within a tile, its gradients, only makes it more lenient.
-double welch_p_value(const TileMean& a, const TileMean& b)
-{
-    const double variance = a.variance + b.variance;
-    if (!(variance > 0))
-        return a.mean == b.mean ? 1 : 0;
-    constexpr double kFreedom = kTile * kTile - 1;
-    const double freedom =
-        variance * variance * kFreedom / (a.variance * a.variance + b.variance * b.variance);
-    const double t = std::abs(a.mean - b.mean) / std::sqrt(variance);
+    const double variance = std::max(squares / kCount - mean * mean, 0.0) / (kCount - 1);
+    const double t = std::abs(mean) / std::sqrt(variance + rounding * rounding);
     if (!(t <= 1e6))
         return 0;
-    return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(freedom), t));
+    return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(kCount - 1), t));
 }
 
 }  // namespace
@@ -111,13 +96,15 @@ double values_unlike(const Image& a, const Image& b)
 
 Agreement agreement_of(const Image& a, const Image& b)
 {
-    const Estimate difference = mean_of(difference_of(a, b));
+    const Image difference = difference_of(a, b);
+    const Estimate estimate = mean_of(difference);
+    const double mean = mean_of(a).mean;
     Agreement found;
-    found.standard_errors = std::abs(difference.mean) / difference.standard_error;
-    found.standard_error = difference.standard_error / mean_of(a).mean;
+    found.standard_errors = std::abs(estimate.mean) / estimate.standard_error;
+    found.standard_error = estimate.standard_error / mean;
     for (int y = 0; y + kTile <= a.extent.height; y += kTile)
         for (int x = 0; x + kTile <= a.extent.width; x += kTile) {
-            const double p = welch_p_value(tile_mean(a, x, y), tile_mean(b, x, y));
+            const double p = tile_p_value(difference, x, y, 1e-6 * mean);
             found.least_p_value = p >= found.least_p_value ? found.least_p_value : p;
             ++found.tiles;
         }

@@ -33,7 +33,7 @@ double values_unlike(const Image& a, const Image& b);
 struct Agreement {
     double standard_errors = 0;  ///< That the means differ by.
     double standard_error = 0;  ///< Of the difference, over the mean of the first.
-    double least_p_value = 1;  ///< Of Welch's test of any tile of 8x8 pixels.
+    double least_p_value = 1;  ///< Of Student's test of any tile of 8x8 pixels.
     std::size_t tiles = 0;
 };
 Agreement agreement_of(const Image& a, const Image& b);

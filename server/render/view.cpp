@@ -130,6 +130,11 @@ void View::upload_constants(const RenderRequest& request)
         constants.background *= scene_.gpu->background_factor();
     constants.light_count = scene_.light_count;
     constants.first_sample = counts_.first_sample();
+    if (scene_.gpu != nullptr) {
+        const Insides::Filling around = scene_.gpu->filling_at(request.camera.position - origin);
+        constants.camera_inside = around.entered;
+        constants.camera_absorption = around.absorption;
+    }
     constants.extent = {key_.extent.width, key_.extent.height};
     constants.frame_index = counts_.frame_index();
     constants.seed = request.settings.seed;

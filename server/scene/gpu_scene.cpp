@@ -23,7 +23,7 @@ std::vector<float> factors_at(
 
 }  // namespace
 
-GpuScene::GpuScene(const Scene& scene, const DeviceLimits& limits) : scene_(scene)
+GpuScene::GpuScene(const Scene& scene, const DeviceLimits& limits) : scene_(scene), insides_(scene)
 {
     PackedScene packed = pack_scene(scene, limits.textures);
     effects_ = packed.effects;

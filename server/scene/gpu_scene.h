@@ -4,6 +4,7 @@
 #include "server/gl/buffer.h"
 #include "server/gl/shader_source.h"
 #include "server/scene/device_limits.h"
+#include "server/scene/insides.h"
 #include "server/scene/packed_scene.h"
 #include "server/scene/texture_arrays.h"
 
@@ -38,6 +39,12 @@ public:
     /// Factor on the scene's background now.
     float background_factor() const { return background_factor_; }
 
+    /// What a point is inside of now, counted from the scene's origin.
+    Insides::Filling filling_at(const glm::dvec3& point) const
+    {
+        return insides_.at(point, moving_->world_from_node());
+    }
+
     /// Every buffer texture by the name shaders use. What the scene has nothing for shares one
     /// texel of zeros, so that a program with more effects than the scene finds all it binds.
     const std::map<std::string, GLuint, std::less<>>& textures() const { return textures_; }
@@ -58,6 +65,7 @@ private:
     void update_lights();
 
     const Scene& scene_;
+    Insides insides_;
     std::optional<MovingScene> moving_;
     std::optional<LightTable> lights_;
     Texels materials_;  ///< Without the factors of tracks.

@@ -1,7 +1,8 @@
 // What a path is inside of: nested and overlapping transparent things, of which the one with the highest priority fills
 // the place they share; of equals the one entered last.
 //
-// A path starts outside of everything. Leaving a thing it never entered (a camera inside it) counts as leaving it.
+// A path starts in what is around the camera (server/scene/insides.h). Leaving a thing that was never entered counts
+// as leaving it.
 //
 // Source: Schmidt and Budge 2002, "Simple Nested Dielectrics in Ray Traced Images", Journal of Graphics Tools 7(2).
 #pragma once

@@ -15,6 +15,30 @@ ShadedMaterial first_material(Surface s, Ray ray)
     return material_at(s, -ray.direction, lookup);
 }
 
+// Part of the light that is left after `way` [m] through what is around the camera.
+vec3 left_of_first_segment(float way)
+{
+#ifdef FX_DIELECTRIC
+    if (max_component(frame.camera_absorption) > 0.0)
+        return exp(-frame.camera_absorption * way);
+#endif
+    return vec3(1.0);
+}
+
+// Fog fills what nothing else does.
+bool camera_in_the_open()
+{
+#ifdef FX_DIELECTRIC
+    return frame.camera_inside == uvec4(0u);
+#else
+    return true;
+#endif
+}
+
+#ifdef FX_DIELECTRIC
+Interior around_camera() { return Interior(frame.camera_inside, 0u); }
+#endif
+
 bool scatters(ShadedMaterial m)
 {
 #ifdef FX_UNLIT

@@ -5,8 +5,9 @@
 //                                (octahedral). Depth 0 marks a miss.
 //        out_identity  rgba32ui  object id, material id, geometric normal (octahedral), 1 on a hit
 //        out_position  rgba32f   world position [m], counted from the scene's origin; a: 1 where there is a surface
-//        out_albedo    rgba32f   diffuse reflectance
-//        out_emission  rgba32f   radiance that bypasses the filter: emitters seen directly, what is unlit, environment
+//        out_albedo    rgba32f   diffuse reflectance, times what is left of light on its way through the camera's medium
+//        out_emission  rgba32f   radiance that bypasses the filter: emitters seen directly, what is unlit, environment;
+//                                likewise
 //        out_motion    rgba32f   where the surface was: previous minus current pixel (xy) [px], previous minus
 //                                current view depth (z) [m], 1 if it was ahead of the previous camera (w)
 //        out_reflectance  rgba32f  what the specular signal is divided by; GGX alpha, negative: nothing specular
@@ -72,20 +73,24 @@ void main()
     const Surface s = surface_at(hit, ray);
     const ShadedMaterial m = first_material(s, ray);
     const vec3 depth = depth_and_gradient(primary.direction, s.position, s.geometric_normal);
+    const float way = met ? length(s.position - ray.origin) : T_INFINITY;
+    const vec3 left = left_of_first_segment(way);
+    const vec3 albedo = met ? diffuse_albedo(m, s, ray) : vec3(0.0);
+    const vec3 emission = met ? m.emission : environment_radiance(ray.direction);
 
     imageStore(out_hit, px, pack_hit(hit));
     imageStore(out_surface, px, met ? uvec4(floatBitsToUint(depth), pack_octahedral(m.shading_normal)) : uvec4(0u));
     imageStore(out_identity, px,
         met ? uvec4(s.object, s.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
     imageStore(out_position, px, met ? vec4(s.position, 1.0) : vec4(0.0));
-    imageStore(out_albedo, px, met ? vec4(diffuse_albedo(m, s, ray), 1.0) : vec4(0.0));
-    imageStore(out_emission, px, vec4(met ? m.emission : environment_radiance(ray.direction), 1.0));
+    imageStore(out_albedo, px, vec4(left * albedo, met ? 1.0 : 0.0));
+    imageStore(out_emission, px, vec4(left * emission, 1.0));
     imageStore(out_motion, px, met ? motion_of(s.position, s.prev_position) : vec4(0.0));
 #ifdef FX_SPECULAR_SIGNAL
     imageStore(out_reflectance, px, met ? reflectance(m, -ray.direction) : vec4(0.0, 0.0, 0.0, -1.0));
 #endif
 #ifdef FX_FOG
-    const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, met ? length(s.position - ray.origin) : T_INFINITY);
-    imageStore(out_fog_way, px, vec4(span.y - span.x));
+    const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, way);
+    imageStore(out_fog_way, px, vec4(camera_in_the_open() ? span.y - span.x : 0.0));
 #endif
 }

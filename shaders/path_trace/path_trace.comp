@@ -217,7 +217,7 @@ void main()
     const ShadedMaterial m = first_material(s, ray);
     const float way = length(s.position - ray.origin);
 #ifdef FX_DIELECTRIC
-    Vertex first = surface_vertex(s, m, -ray.direction, outside_of_everything());
+    Vertex first = surface_vertex(s, m, -ray.direction, around_camera());
 #else
     Vertex first = surface_vertex(s, m, -ray.direction);
 #endif
@@ -231,7 +231,7 @@ void main()
     // Two paths a sample, one from the surface and one from the fog before it; what the fog lacks is skipped.
     vec3 scattered = vec3(0.0);
     const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, met ? way : T_INFINITY);
-    const bool foggy = fog_present() && span.y > span.x && max_depth > 1;
+    const bool foggy = fog_present() && span.y > span.x && max_depth > 1 && camera_in_the_open();
     const int surface_paths = paths;
     paths += foggy ? samples_per_pixel : 0;
 #endif
@@ -282,7 +282,8 @@ void main()
     imageStore(out_indirect, px, MEAN_WITH(in_indirect, vec4(counted_light(sum.indirect * weight), 0.0)));
 #ifdef FX_SPECULAR_SIGNAL
     const vec4 reflectance = texelFetch(in_reflectance, px, 0);
-    const vec3 specular = reflectance.a >= 0.0 ? sum.specular * weight / reflectance.rgb : vec3(0.0);
+    const vec3 seen = sum.specular * weight * left_of_first_segment(met ? way : T_INFINITY);
+    const vec3 specular = reflectance.a >= 0.0 ? seen / reflectance.rgb : vec3(0.0);
     // Beyond ten thousand times the view distance nothing shifts any more.
     const float distance = distance_count > 0.0 ? min(distance_sum / distance_count, 1e4 * way) : 0.0;
     imageStore(out_specular, px, MEAN_WITH(in_specular, vec4(counted_light(specular), distance)));

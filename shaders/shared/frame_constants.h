@@ -31,10 +31,10 @@ struct FrameConstants {
     uint seed;
     uint light_count;  // that can be chosen; 0: a scene without, in a program with
 
+    uvec4 camera_inside;  // what the camera is inside of: materials + 1, oldest first, 0: nothing more
+
+    vec3 camera_absorption;  // of what fills the place around the camera [1/m]
     uint frame_index;  // frames since the view was cut
-    uint pad0;
-    uint pad1;
-    uint pad2;
 };
 
 SHARED_END

@@ -56,9 +56,8 @@ void main() { results[0] = vec4(frame.camera.position, 0.0); }
     expected["frame.seed"] = offsetof(FrameConstants, seed);
     expected["frame.light_count"] = offsetof(FrameConstants, light_count);
     expected["frame.frame_index"] = offsetof(FrameConstants, frame_index);
-    expected["frame.pad0"] = offsetof(FrameConstants, pad0);
-    expected["frame.pad1"] = offsetof(FrameConstants, pad1);
-    expected["frame.pad2"] = offsetof(FrameConstants, pad2);
+    expected["frame.camera_inside"] = offsetof(FrameConstants, camera_inside);
+    expected["frame.camera_absorption"] = offsetof(FrameConstants, camera_absorption);
     EXPECT_EQ(member_offsets(program.id()), expected);
     EXPECT_EQ(sizeof(FrameConstants) % 16, 0U);
 }

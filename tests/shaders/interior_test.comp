@@ -4,7 +4,7 @@
 #include "expect.glsl"
 #include "bsdf/interior.glsl"
 
-// Ranks among materials need packed ones: see bsdf_interior_test.cpp.
+// Ranks among materials need packed ones: see lab/cases_media.cpp.
 ShadedMaterial transparent(float ior, int priority)
 {
     ShadedMaterial m;
