@@ -1,6 +1,7 @@
 // Which programs draw a scene, and that changing them, or the scene, between frames costs nobody
 // anything but what it must.
 #include "lab/meshes.h"
+#include "lab/moved.h"
 #include "server/render/live_scene.h"
 #include "tests/scene/plain_scene.h"
 #include "tests/support/gl_test.h"
@@ -122,6 +123,31 @@ TEST_F(SceneProgramsTest, NoFrameLacksWhatAnEditHasBrought)
         EXPECT_TRUE(shown.effects.contains(called_for));
         View general(live.shared());
         EXPECT_EQ(draw(general, scene, kGeneral).image.bytes, shown.image.bytes);
+    }
+}
+
+/// Of a scene far away, whose positions are counted from elsewhere after the edit.
+TEST_F(SceneProgramsTest, AnEditThatMovesTheOriginCostsNoHistory)
+{
+    const Scene far = lab::moved(room_, {1e6, -2e6, 64});
+    Scene edited = far;
+    edited.camera.target += glm::dvec3(1.5, 1.5, 1.5);
+    edited.camera.position = edited.camera.target + glm::dvec3(0.01, 0, 0);
+    LiveScene live(context(), options_, [] {});
+    View view(live.shared());
+    RenderRequest request = linear_request(far, {32, 24}, {});
+    request.settings.view = DebugView::kHistoryLength;
+    glm::dvec3 origin(0);
+    for (int frame = 1; frame <= 6; ++frame) {
+        request.camera.position.x += 0.03125;
+        if (frame == 1 || frame == 4)
+            live.show(load_onto_device(frame == 1 ? far : edited));
+        const RenderedFrame drawn = view.render(request);
+        EXPECT_EQ(drawn.history_reset, frame == 1);
+        EXPECT_EQ(pixel(drawn.image, 16, 12).x, static_cast<float>(frame));
+        EXPECT_NE(live.shared().look.origin, glm::dvec3(0));
+        EXPECT_TRUE(frame != 4 || live.shared().look.origin != origin) << "nothing is tested";
+        origin = live.shared().look.origin;
     }
 }
 
