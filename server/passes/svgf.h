@@ -2,11 +2,21 @@
 // 2017), for each kind of signal by itself, so that none is changed by another's being there.
 #pragma once
 
+#include "server/host_guard.h"
 #include "server/passes/path_trace.h"
 
 #include <algorithm>
 
 namespace farlight {
+
+inline const HostGuard light_histories_in_32_bits("light_histories_in_32_bits");
+
+/// Of light over time. In 16 bits an exponential average stops short of what it follows, by 3 %
+/// where a frame weighs 1/64, and the word of its noise has no place.
+inline GLenum light_history_format()
+{
+    return light_histories_in_32_bits ? GL_RGBA32F : GL_RGBA16F;
+}
 
 /// What the filter leaves behind, for the composite and for people who look inside.
 struct SvgfOutput {
@@ -56,7 +66,7 @@ public:
         , length_(graph.history(history_name("length"), GL_R32F))
     {
         for (const std::string& name : kind.names)
-            past_.push_back(graph.history("svgf.history_" + name, GL_RGBA32F));
+            past_.push_back(graph.history("svgf.history_" + name, light_history_format()));
     }
 
     /// After this, blended(), filtered() and length() are there.
