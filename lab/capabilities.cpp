@@ -2,6 +2,7 @@
 #include "lab/capabilities.h"
 
 #include "lab/compute.h"
+#include "lab/pass_bench.h"
 #include "server/gl/buffer.h"
 
 #include <bit>
@@ -20,6 +21,8 @@ float at(int i) { return texelFetch(operands, i).x; }
 void main()
 {
     const float zero = at(0), one = at(1), nan = at(2), inf = at(3), tiny = at(4), denormal = at(5), large = at(6);
+    precise float uncontracted = (one + 0.000244140625) * (one + 0.000244140625);
+    uncontracted = uncontracted - (one + 0.00048828125);
 )";
 
 struct Probe {
@@ -54,7 +57,26 @@ constexpr Probe kProbes[] = {
     {"large * large", "infinity"},
     {"(one + 0.000244140625) * (one + 0.000244140625) - (one + 0.00048828125)",
         "not 0: contracted into an fma"},
+    {"uncontracted", "the same declared precise: not 0 is an error of the compiler"},
 };
+
+/// What a store into a texture of halves makes of a value that lies between two of them.
+constexpr const char* kHalfStore = R"(#version 450
+layout(local_size_x = 1) in;
+uniform float value;
+uniform writeonly image2D out_half;
+void main() { imageStore(out_half, ivec2(0), vec4(value)); }
+)";
+
+float stored_as_half(float value)
+{
+    add_shader_file("lab/half_store", kHalfStore);
+    PassBench bench("lab/half_store", {}, {1, 1});
+    bench.fill("out_half", GL_RGBA16F, glm::vec4(0));
+    bench.constant("value", value);
+    bench.run();
+    return bench.read("out_half")[0].x;
+}
 
 constexpr float kNan = std::bit_cast<float>(0x7fc00000U);
 constexpr float kInfinity = std::bit_cast<float>(0x7f800000U);
@@ -86,6 +108,10 @@ std::vector<Capability> capabilities()
     for (std::size_t i = 0; i < std::size(kProbes); ++i)
         sheet.push_back(
             {kProbes[i].expression, shown(results[i].x, kProbes[i].bits), kProbes[i].left_open});
+    for (const float value : {1.00073F, 70000.0F})
+        sheet.push_back({"half(" + shown(value, false) + "), stored in a texture",
+            shown(stored_as_half(value), false),
+            value > 2 ? "overflow: infinity or 65504" : "1.00097656: to nearest, 1: to zero"});
     return sheet;
 }
 
