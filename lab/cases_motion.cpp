@@ -178,7 +178,69 @@ void the_same_view_said_otherwise(Findings& findings, Length /*length*/)
     findings.at_most("motion between the two [px]", most, 1e-4);
 }
 
+/// Pairs of equal things in the same place, at rest and turning, amid a crowd.
+Scene pairs(int& count)
+{
+    const std::string spin =
+        R"(, "spin": {"axis": [0.2, 1, 0], "center": [0, 0, 0], "period": 4}})";
+    const std::string shapes[] = {R"("sphere": {"center": [1, 0.2, 0], "radius": 0.5}})",
+        R"("disk": {"center": [-1, 0, 0.3], "normal": [0, 1, 1], "radius": 0.6}})",
+        R"("box": {"center": [0, 1, 0.4], "size": [0.7, 0.5, 0.6]}})"};
+    std::string objects;
+    for (const bool turns : {false, true})
+        for (std::string shape : shapes) {
+            if (turns)
+                shape = shape.substr(0, shape.size() - 1) + spin;
+            for (int copy = 0; copy < 2; ++copy)
+                objects += R"({"material": "white", )" + shape + ",";
+            ++count;
+        }
+    for (int i = 0; i < 40; ++i)
+        objects += R"({"material": "white", "sphere": {"center": [)"
+            + std::to_string(2 * std::cos(i * 2.4)) + "," + std::to_string(0.1 * i - 2) + ","
+            + std::to_string(2 * std::sin(i * 2.4)) + R"(], "radius": 0.15}},)";
+    objects.pop_back();
+    return parse_scene(R"({"version": 1, "materials": {"white": {"albedo": [0.8, 0.8, 0.8]}},
+        "objects": [)"
+            + objects + "]}",
+        ".", "pairs");
+}
+
+/// Whichever of two is seen, it is seen by all rays from everywhere.
+void pairs_do_not_flicker(Findings& findings, Length length)
+{
+    int count = 0;
+    const DeviceScene scene(pairs(count));
+    View view(scene.shared);
+    std::vector<double> seen(static_cast<std::size_t>(2 * count), 0);
+    const int frames = length == Length::kLong ? 400 : 40;
+    for (int i = 0; i < frames; ++i) {
+        RenderRequest request = request_at(scene.scene, 0.11 * i, DebugView::kObjectId);
+        request.camera = {{4 * std::cos(0.37 * i), 2.5 * std::sin(0.9 * i), 4 * std::sin(0.37 * i)},
+            {0, 0, 0}, {0, 1, 0}, 50};
+        const Image object = view.render(request).image;
+        for (int y = 0; y < kMovingExtent.height; ++y)
+            for (int x = 0; x < kMovingExtent.width; ++x)
+                if (const auto id = static_cast<std::size_t>(pixel(object, x, y).x);
+                    id < seen.size())
+                    seen[id] += 1;
+    }
+    double flickers = 0;
+    double least = seen[2];
+    for (std::size_t i = 0; i < seen.size(); i += 2) {
+        flickers += std::min(seen[i], seen[i + 1]);
+        least = std::min(least, std::max(seen[i], seen[i + 1]));
+    }
+    findings.none(
+        "pixels that see the other one of a pair, in " + std::to_string(frames) + " frames",
+        flickers);
+    findings.at_least("pixels that see any pair", least, 500);
+}
+
 constexpr Case kMotionCases[] = {
+    {"15b", "motion", "pairs do not flicker", Layer::kPicture,
+        "Of two equal things in the same place, at rest or turning, all rays see the same one.",
+        pairs_do_not_flicker},
     {"63e", "motion", "the same view said otherwise", Layer::kSequence,
         "A camera that says the same view in other words has not moved.",
         the_same_view_said_otherwise},
@@ -194,6 +256,8 @@ constexpr Case kMotionCases[] = {
 };
 
 constexpr Guard kMotionGuards[] = {
+    {"instances_in_order", "15b", "geometry/traverse.glsl",
+        "? 0x80000000u | ray.instance : object;", "? 0x80000000u : object;"},
     {"moments_in_doubles", "68d"},
     {"moved_since_last_frame", "65c 68c"},
     {"up_is_upright", "63b 63e"},

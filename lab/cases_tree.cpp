@@ -314,7 +314,9 @@ constexpr Guard kTreeGuards[] = {
         "1u"},
     {"stack_of_need", "13", "geometry/traverse.glsl", "uint stack[BVH_STACK_SIZE];",
         "uint stack[8];"},
-    {"first_named", "15", "geometry/traverse.glsl", "a.w < candidate.nearest", "false"},
+    {"first_named", "15", "geometry/traverse.glsl",
+        "(t < hit.t || rank < candidate.nearest) && kind == BVH_TRIANGLES",
+        "t < hit.t && kind == BVH_TRIANGLES"},
     {"nearest_stays", "18", "geometry/traverse.glsl", "swap ? t_b : t_a;", "t_a;"},
 };
 

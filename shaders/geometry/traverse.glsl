@@ -79,20 +79,33 @@ void record(inout Hit hit, Traversal ray, float t, uint slot, vec2 barycentric)
 // A hit of something with holes, to be looked into before it counts.
 struct Candidate {
     bool waits;
-    uint nearest;  // object of the nearest triangle so far: of two in one place the first named is seen
+    uint nearest;  // rank of the nearest hit so far
 #ifdef FX_ALPHA
     Hit hit;
-    uint object;   // of a triangle
+    uint rank;
     uint material;
     vec3 normal;   // of a sphere
     float passed;  // along the ray, of the primitive being tested
 #endif
 };
 
+// Of two hits in one place that of the lower rank is seen, whatever order the tree has: of the world's triangles those
+// of the object that the scene names first, then instances in their order.
+uint rank_in(Traversal ray, uint object)
+{
+#ifdef FX_INSTANCES
+    return ray.instance != NO_INSTANCE ? 0x80000000u | ray.instance : object;
+#else
+    return object;
+#endif
+}
+
 // Takes what the ray met as the nearest hit, or as a candidate for it. `material` as the primitive names it.
-void accept(inout Hit hit, inout Candidate candidate, Traversal ray, float t, uint slot, vec2 barycentric, uint material)
+void accept(inout Hit hit, inout Candidate candidate, Traversal ray, float t, uint rank, uint slot, vec2 barycentric,
+    uint material)
 {
 #ifdef FX_ALPHA
+    candidate.rank = rank;
 #ifdef FX_INSTANCES
     material = ray.instance != NO_INSTANCE ? ray.material : material;
 #endif
@@ -102,6 +115,7 @@ void accept(inout Hit hit, inout Candidate candidate, Traversal ray, float t, ui
     if (candidate.waits)
         return;
 #endif
+    candidate.nearest = rank;
     record(hit, ray, t, slot, barycentric);
 }
 
@@ -110,41 +124,35 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout 
     const uint slot = (leaf & (BVH_KIND_MASK | BVH_FIRST_MASK)) + k;
     const int place = int(slot & BVH_FIRST_MASK);
     const uint kind = leaf & BVH_KIND_MASK;
+    // As far as the nearest hit and with it, for ties.
+    const float limit = hit.slot == NO_HIT ? hit.t : uintBitsToFloat(floatBitsToUint(hit.t) + 1u);
 #ifdef FX_TRIANGLES
     {
         const int at = place * TRIANGLE_TEXELS;
         const uvec4 a = texelFetch(triangles, at);
         const uvec4 b = texelFetch(triangles, at + 1);
-        // As far as the nearest hit and with it, for ties.
-        const float limit = hit.slot == NO_HIT ? hit.t : uintBitsToFloat(floatBitsToUint(hit.t) + 1u);
         vec2 barycentric;
         const float t = intersect_triangle(ray, uintBitsToFloat(a.xyz), uintBitsToFloat(b.xyz),
             uintBitsToFloat(texelFetch(triangles, at + 2).xyz), limit, barycentric);
-        if (t > 0.0 && (t < hit.t || a.w < candidate.nearest) && kind == BVH_TRIANGLES) {
-            accept(hit, candidate, ray, t, slot, barycentric, b.w);
-#ifdef FX_ALPHA
-            candidate.object = a.w;
-            candidate.nearest = candidate.waits ? candidate.nearest : a.w;
-#else
-            candidate.nearest = a.w;
-#endif
-        }
+        const uint rank = rank_in(ray, a.w);
+        if (t > 0.0 && (t < hit.t || rank < candidate.nearest) && kind == BVH_TRIANGLES)
+            accept(hit, candidate, ray, t, rank, slot, barycentric, b.w);
     }
 #endif
 #ifdef FX_SPHERES
     {
         const vec4 sphere = uintBitsToFloat(texelFetch(spheres, place * SPHERE_TEXELS));
 #ifdef FX_ALPHA
-        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, candidate.passed, hit.t);
+        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, candidate.passed, limit);
         const uint material = texelFetch(spheres, place * SPHERE_TEXELS + 1).y;
         const vec3 normal = normalize(ray.origin + t * ray.direction - sphere.xyz);
 #else
-        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, 0.0, hit.t);
+        const float t = intersect_sphere(ray, sphere.xyz, sphere.w, 0.0, limit);
         const uint material = 0u;
 #endif
-        if (t > 0.0 && kind == BVH_SPHERES) {
-            accept(hit, candidate, ray, t, slot, vec2(0.0), material);
-            candidate.nearest = candidate.waits ? candidate.nearest : 0u;
+        const uint rank = rank_in(ray, 0u);
+        if (t > 0.0 && (t < hit.t || rank < candidate.nearest) && kind == BVH_SPHERES) {
+            accept(hit, candidate, ray, t, rank, slot, vec2(0.0), material);
 #ifdef FX_ALPHA
             candidate.normal = normal;
 #endif
@@ -155,16 +163,15 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout 
     {
         const vec4 disk = uintBitsToFloat(texelFetch(disks, place * DISK_TEXELS));
         const vec3 normal = uintBitsToFloat(texelFetch(disks, place * DISK_TEXELS + 1).xyz);
-        const float t = intersect_disk(ray, disk.xyz, normal, disk.w, hit.t);
+        const float t = intersect_disk(ray, disk.xyz, normal, disk.w, limit);
 #ifdef FX_ALPHA
         const uint material = texelFetch(disks, place * DISK_TEXELS + 2).y;
 #else
         const uint material = 0u;
 #endif
-        if (t > 0.0 && kind == BVH_DISKS) {
-            accept(hit, candidate, ray, t, slot, vec2(0.0), material);
-            candidate.nearest = candidate.waits ? candidate.nearest : 0u;
-        }
+        const uint rank = rank_in(ray, 0u);
+        if (t > 0.0 && (t < hit.t || rank < candidate.nearest) && kind == BVH_DISKS)
+            accept(hit, candidate, ray, t, rank, slot, vec2(0.0), material);
     }
 #endif
 }
@@ -227,7 +234,7 @@ Hit traverse(Ray r, float t_max, const bool first_hit_ends)
     candidate.nearest = 0u;
 #ifdef FX_ALPHA
     candidate.hit = hit;
-    candidate.object = 0u;
+    candidate.rank = 0u;
     candidate.material = 0u;
     candidate.normal = vec3(0.0);
     candidate.passed = 0.0;
@@ -278,8 +285,7 @@ Hit traverse(Ray r, float t_max, const bool first_hit_ends)
             candidate.waits = false;
             if (covered) {
                 hit = candidate.hit;
-                const bool triangle = (hit.slot & BVH_KIND_MASK) == BVH_TRIANGLES;
-                candidate.nearest = triangle ? candidate.object : 0u;
+                candidate.nearest = candidate.rank;
             }
             // What lies behind the near side of a sphere is its far side.
             const bool again = !covered && candidate.passed == 0.0 && (candidate.hit.slot & BVH_KIND_MASK) == BVH_SPHERES;
