@@ -72,7 +72,7 @@ void mean_of_noise(Findings& findings, Length length)
         std::ldexp(std::sqrt(frames), -24));
     // Numbers in [0, 1] deviate by 1 / sqrt(3) of their mean.
     findings.at_most(
-        "drift over the standard error of the mean", drift * std::sqrt(3.0 * frames), 0.01);
+        "drift over the standard error of the mean", drift * std::sqrt(3.0 * frames), 0.1);
 }
 
 /// The least weight that a new frame's light may have: that of a mirror's, at the least that the

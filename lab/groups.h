@@ -20,6 +20,7 @@ Group estimators_group();
 Group filter_group();
 Group garbage_group();
 Group history_group();
+Group holes_group();
 Group insides_group();
 Group laws_group();
 Group light_group();
@@ -52,6 +53,7 @@ inline std::vector<Group> all_groups()
         filter_group(),
         garbage_group(),
         history_group(),
+        holes_group(),
         insides_group(),
         laws_group(),
         light_group(),

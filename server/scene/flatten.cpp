@@ -4,6 +4,7 @@
 #include "server/host_guard.h"
 #include "server/scene/deform.h"
 #include "server/scene/instance_transform.h"
+#include "server/scene/material_response.h"
 
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
@@ -14,6 +15,7 @@ namespace farlight {
 namespace {
 
 const HostGuard flat_drops_unbounded("flat_drops_unbounded");
+const HostGuard holes_are_not_drawn("holes_are_not_drawn");
 
 const Mesh* mesh_of(const Scene& scene, const Object& object)
 {
@@ -44,7 +46,7 @@ public:
             if (placement == Placement::kDeforming)
                 flat_.first_deforming = static_cast<std::uint32_t>(flat_.groups.size());
             for (object_ = 0; object_ < scene_.objects.size(); ++object_)
-                if (placements_[object_] == placement)
+                if (placements_[object_] == placement && is_there())
                     add_object(placement);
         }
         return std::move(flat_);
@@ -52,6 +54,10 @@ public:
 
 private:
     const Object& object() const { return scene_.objects[object_]; }
+    bool is_there() const
+    {
+        return !is_all_hole(scene_.materials[object().material]) || !holes_are_not_drawn;
+    }
     glm::dmat4 world_from_carrier() const
     {
         return carried(object().node, world_from_node_, glm::dmat4(1));

@@ -18,6 +18,12 @@ inline bool is_glossy(const Material& m)
     return !m.unlit && (m.metallic > 0 || m.specular > 0 || m.transmission > 0 || m.clearcoat > 0);
 }
 
+/// Whether no ray ever finds it there: nothing is drawn of it.
+inline bool is_all_hole(const Material& m)
+{
+    return m.alpha_mode == AlphaMode::kBlend && !(m.opacity > 0);
+}
+
 /// Whether it sends any light on.
 inline bool scatters(const Material& m)
 {

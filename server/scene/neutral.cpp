@@ -134,16 +134,22 @@ public:
     {
         std::vector<std::uint8_t> used(scene.materials.size(), 0);
         least_vertex_alpha_.assign(scene.materials.size(), 1.0F);
+        greatest_vertex_alpha_.assign(scene.materials.size(), 0.0F);
         for (const Object& object : scene.objects) {
             used[object.material] = 1;
             if (const auto* instance = std::get_if<MeshInstance>(&object.shape))
                 for (const glm::vec4& color : scene.meshes[instance->mesh].colors)
                     least_vertex_alpha_[object.material] =
                         std::min(least_vertex_alpha_[object.material], color.w);
+            greatest_vertex_alpha_[object.material] =
+                std::max(greatest_vertex_alpha_[object.material], greatest_vertex_alpha(object));
         }
         for (std::size_t i = 0; i < scene.materials.size(); ++i) {
             Material& material = scene.materials[i];
-            if (used[i] != 0)
+            if (used[i] != 0 && is_hole_all_over(material, greatest_vertex_alpha_[i]))
+                material =
+                    Material{.name = material.name, .alpha_mode = AlphaMode::kBlend, .opacity = 0};
+            else if (used[i] != 0)
                 simplify(material, least_vertex_alpha_[i]);
             else
                 material = Material{.name = material.name};
@@ -165,6 +171,27 @@ private:
         simplify_surface(m);
         simplify_transmission(m);
         simplify_clearcoat(m);
+    }
+
+    float greatest_vertex_alpha(const Object& object) const
+    {
+        const auto* instance = std::get_if<MeshInstance>(&object.shape);
+        if (instance == nullptr || scene_.meshes[instance->mesh].colors.empty())
+            return 1;
+        float greatest = 0;
+        for (const glm::vec4& color : scene_.meshes[instance->mesh].colors)
+            greatest = std::max(greatest, color.w);
+        return greatest;
+    }
+
+    /// What is not there anywhere, for any ray.
+    bool is_hole_all_over(const Material& m, float vertex_alpha)
+    {
+        const float texture_alpha =
+            m.albedo_texture.used() ? linear_value(range(m.albedo_texture).most).w : 1;
+        const float most = m.opacity * texture_alpha * vertex_alpha;
+        return (m.alpha_mode == AlphaMode::kBlend && !(most > 0))
+            || (m.alpha_mode == AlphaMode::kMask && !(most >= m.alpha_cutoff));
     }
 
     void simplify_alpha(Material& m, float vertex_alpha)
@@ -275,6 +302,7 @@ private:
     Scene& scene_;
     std::vector<std::optional<Range>> ranges_;  ///< Of each image, once asked for.
     std::vector<float> least_vertex_alpha_;  ///< Of each material's objects.
+    std::vector<float> greatest_vertex_alpha_;
 };
 
 // ---------------------------------------------------------------- the rest
