@@ -56,8 +56,8 @@ constexpr Case kDisplayCases[] = {
 };
 
 constexpr Guard kDisplayGuards[] = {
-    {"displayable_nan", "67", "lib/display.glsl", "return vec3(x.r > 0.0 ? min(x.r, 1e30) : 0.0,",
-        "return vec3(x.r,"},
+    {"displayable_nan", "67", "lib/display.glsl",
+        "return vec3(x.r > 0.0 ? min(x.r, MOST_DISPLAYABLE) : 0.0,", "return vec3(x.r,"},
 };
 
 }  // namespace

@@ -200,7 +200,7 @@ void nothing_shows_what_is_behind(Findings& findings, Length /*length*/)
             RenderedFrame frame;
             for (int i = 0; i < 3; ++i) {
                 frame = view.render(linear_request(scene, extent, {}));
-                nonfinite += frame.nonfinite_count;
+                nonfinite += frame.bad_values.all();
             }
             for (const float value : values_of(frame.image))
                 off = farther(off, std::abs(static_cast<double>(value) - seen));

@@ -254,7 +254,7 @@ void strange_cameras(Findings& findings, Length /*length*/)
         }
         const RenderedFrame frame =
             view.render(request_of(on_device.scene, pose, DebugView::kFinal));
-        bad += frame.nonfinite_count;
+        bad += frame.bad_values.all();
         for (const float value : values_of(frame.image))
             no_light += value >= 0 && value < 1e6F ? 0 : 1;
     };

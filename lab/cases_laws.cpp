@@ -48,7 +48,7 @@ Drawn draw(const Scene& scene, Denoiser denoiser, int frames, int samples = 1)
     for (int i = 0; i < frames; ++i) {
         RenderedFrame frame = view.render(request);
         drawn.image = std::move(frame.image);
-        drawn.nonfinite += frame.nonfinite_count;
+        drawn.nonfinite += frame.bad_values.all();
         if (moves)
             request.camera.position += 0.004 * way;
     }

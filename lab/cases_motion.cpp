@@ -128,7 +128,7 @@ void far_moments(Findings& findings, Length /*length*/)
     for (const double turns : {0.0, 1.0, 333'333.0, -333'333.0, 333'333'333.0, 0.0}) {
         for (const double jump : {0.1, 0.1, 0.75}) {
             const RenderedFrame frame = seen(3 * turns + jump);
-            bad += frame.nonfinite_count;
+            bad += frame.bad_values.all();
             if (jump != 0.75)
                 continue;
             for (int y = 0; y < kMovingExtent.height; ++y)

@@ -102,14 +102,14 @@ RenderedFrame last_frame(const DeviceScene& scene, DebugView shown)
     RenderRequest request = linear_request(scene.scene, kFarExtent, {});
     request.settings.view = shown;
     RenderedFrame frame;
-    std::uint32_t nonfinite = 0;
+    BadValues met;
     for (int i = 0; i < 4; ++i) {
         request.camera.position += glm::dvec3(0.03125, 0.015625, -0.03125);
         request.time = 0.0625 * i;
         frame = view.render(request);
-        nonfinite += frame.nonfinite_count;
+        met.add(frame.bad_values);
     }
-    frame.nonfinite_count = nonfinite;
+    frame.bad_values = met;
     return frame;
 }
 
@@ -120,7 +120,7 @@ Looks looks_of(const Scene& source)
     for (std::size_t i = 0; i < looks.values.size(); ++i) {
         const RenderedFrame frame = last_frame(scene, kLookedAt[i]);
         looks.values.at(i) = values_of(frame.image);
-        looks.nonfinite += frame.nonfinite_count;
+        looks.nonfinite += frame.bad_values.all();
     }
     return looks;
 }

@@ -65,7 +65,8 @@ struct PoisonSeen {
     double later = 0;  ///< How far off a frame later, with it.
     int itself =
         0;  ///< Poisoned pixels shown as less or more than what is around them may make them.
-    int miscounted = 0;  ///< Poisoned frames whose counter said something else than one.
+    int miscounted =
+        0;  ///< Poisoned frames that were not counted, or were though no light was bad.
     int counted_later = 0;
 };
 
@@ -79,13 +80,13 @@ void look_at(PoisonSeen& seen, View& view, RenderRequest& request, const Poisone
     const glm::vec3 itself = pixel(poisoned.image, kPoisonedX, kPoisonedY);
     const double least = stage.filled ? (1 - 1e-5) * kFurnaceRadiance : 0;
     seen.itself += itself.x >= least && itself.x <= (1 + 1e-5) * kFurnaceRadiance ? 0 : 1;
-    seen.miscounted += stage.counted == (poisoned.nonfinite_count == 1) ? 0 : 1;
+    seen.miscounted += stage.counted == (poisoned.bad_values.all() > 0) ? 0 : 1;
     request.camera.position.x -= 0.01;
     request.settings.seed = 0;
     request.reset_history = false;
     const RenderedFrame later = view.render(request);
     seen.later = farther(seen.later, off_constant(later.image, false));
-    seen.counted_later += later.nonfinite_count == 0 ? 0 : 1;
+    seen.counted_later += later.bad_values.all() == 0 ? 0 : 1;
 }
 
 /// The furnace has no specular and no scattered light.
@@ -121,7 +122,7 @@ void poisoned_stages(Findings& findings, Length /*length*/)
     findings.at_most("deviation a frame later", seen.later, 1e-5);
     findings.none(
         "poisoned pixels shown as something else than what is around them or black", seen.itself);
-    findings.none("poisoned frames not counted as one", seen.miscounted);
+    findings.none("poisoned frames not counted", seen.miscounted);
     findings.none("frames that count something a frame later", seen.counted_later);
 }
 
@@ -243,7 +244,7 @@ void poisoned_mean(Findings& findings, Length /*length*/)
 constexpr Case kPoisonCases[] = {
     {"59", "poison", "a poisoned pixel in any stage", Layer::kPicture,
         "NaN, infinity or less than nothing in one pixel of any stage changes no other pixel of a "
-        "constant picture, is counted once, and is gone a frame later.",
+        "constant picture, is counted, and is gone a frame later.",
         poisoned_stages},
     {"59b", "poison", "poison is left out", Layer::kFunction,
         "Beside a poisoned pixel the filter's passes give the bits that they give beside a miss.",
@@ -262,8 +263,8 @@ constexpr Guard kPoisonGuards[] = {
     {"known_history", "59 59b 59d", "svgf/temporal.comp",
         "const bool known = is_light(first) && is_light(second) && is_light(moments);",
         "const bool known = true;"},
-    {"known_sample", "59 59d", "svgf/temporal.comp",
-        "counted_known(is_light(first) && is_light(second), abs(first) + abs(second))", "true"},
+    {"known_sample", "59", "svgf/temporal.comp",
+        "const bool known = is_light(first) && is_light(second);", "const bool known = true;"},
     {"unknown_sample", "59", "svgf/temporal.comp", "first = second = unknown_light();",
         "first = second = vec3(0.0);"},
     {"known_moments", "59b", "svgf/variance.comp", "geometry >= 0.0 && is_light(moments)",
@@ -271,7 +272,7 @@ constexpr Guard kPoisonGuards[] = {
     {"unknown_is_negative_zero", "59", "lib/unknown.glsl",
         "return vec3(uintBitsToFloat(0x80000000u));", "return vec3(0.0);"},
     {"known_frame", "59c", "accumulate/accumulate.comp",
-        "if (is_light(radiance)) {  // else there is no sample, and the others stand", "{"},
+        "if (known) {  // else there is no sample, and the others stand", "{"},
     {"known_mean", "59c", "accumulate/accumulate.comp", "if (frame_count > 1 && is_light(old))",
         "if (frame_count > 1)"},
 };

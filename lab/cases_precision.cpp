@@ -332,7 +332,7 @@ void poles_are_finite(Findings& findings, Length /*length*/)
         depth.settings.antialiasing = false;
         View depths(scene.shared);
         const std::string name = way > 0 ? "up: " : "down: ";
-        findings.none(name + "non-finite values", frame.nonfinite_count);
+        findings.none(name + "non-finite values", frame.bad_values.all());
         findings.none(name + "values below what it emits", dark);
         findings.at_most(name + "depth of the pole off [ulp]",
             std::abs(pixel(depths.render(depth).image, 8, 8).x / 3.0 - 1) / kUlp, 4);

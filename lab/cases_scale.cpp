@@ -46,7 +46,7 @@ Sized last_frame_at(const DeviceScene& scene, double scale, DebugView shown)
     for (int i = 0; i < 6; ++i) {
         request.camera.position.x += 0.03125 * scale;
         const RenderedFrame frame = view.render(request);
-        sized.nonfinite += frame.nonfinite_count;
+        sized.nonfinite += frame.bad_values.all();
         sized.values = values_of(frame.image);
     }
     return sized;
@@ -163,7 +163,7 @@ void white_things_vanish(Findings& findings, Length length)
         for (const float value : values_of(frame.image))
             off = farther(off, static_cast<double>(std::abs(value - 1)));
         findings.at_most(std::string(placed.name) + ": farthest from the sky", off, 1e-4);
-        findings.none(std::string(placed.name) + ": non-finite values", frame.nonfinite_count);
+        findings.none(std::string(placed.name) + ": non-finite values", frame.bad_values.all());
     }
 }
 
@@ -258,7 +258,7 @@ void cameras_in_odd_places(Findings& findings, Length /*length*/)
             RenderRequest request = linear_request(scene.scene, {17, 17}, {});
             request.camera = {at, at + way, {0, 1, 0}, 90};
             const RenderedFrame frame = view.render(request);
-            nonfinite += frame.nonfinite_count;
+            nonfinite += frame.bad_values.all();
             for (const float value : values_of(frame.image))
                 bad += value >= 0 && std::isfinite(value) ? 0 : 1;
             request.settings.view = DebugView::kGeometricNormal;

@@ -53,7 +53,8 @@ json circling_ball()
 /// Values of a frame that are not as its header says, and its picture.
 struct Received {
     client::Picture picture;
-    double bad = 0;  ///< 1 where size or payload are not those asked for, and values not finite.
+    double bad =
+        0;  ///< 1 where size or payload are not those asked for, and stages that met bad values.
 };
 
 Received receive(const Frame& frame, const Size& asked)
@@ -63,7 +64,7 @@ Received receive(const Frame& frame, const Size& asked)
     const bool as_asked = frame.header.width == asked[0] && frame.header.height == asked[1]
         && frame.header.full_width == asked[0] && frame.header.full_height == asked[1]
         && frame.payload.size() == 4 * values && received.picture.linear.size() == values;
-    received.bad = (as_asked ? 0 : 1) + static_cast<double>(frame.header.nonfinite_count);
+    received.bad = (as_asked ? 0 : 1) + static_cast<double>(frame.header.stages.size());
     return received;
 }
 

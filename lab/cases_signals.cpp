@@ -92,8 +92,8 @@ void every_signal(Findings& findings, Length /*length*/)
             const bool dims = kind == kPoisonKinds - 1
                 && std::string_view(PoisonedShaders::stages()[stage].output) == "out_albedo";
             const bool counts = PoisonedShaders::stages()[stage].counted && !dims;
-            uncounted += counts == (seen.poisoned.nonfinite_count > 0) ? 0 : 1;
-            counted_later += seen.later.nonfinite_count == 0 ? 0 : 1;
+            uncounted += counts == (seen.poisoned.bad_values.all() > 0) ? 0 : 1;
+            counted_later += seen.later.bad_values.all() == 0 ? 0 : 1;
             ++frames;
         }
     findings.at_most("other pixels off the clean picture [of their value], "

@@ -33,7 +33,7 @@ void equal_frames(Findings& findings, Length length)
         "shortest history [frames]", filter.shortest_history(), RenderSettings{}.history_max);
     findings.at_most(
         "longest history [frames]", filter.longest_history(), RenderSettings{}.history_max);
-    findings.none("values that were no light", filter.bad_values());
+    findings.none("values that were no light", filter.bad_values().all());
 }
 
 constexpr Extent kDriftExtent{64, 48};

@@ -189,7 +189,7 @@ void sliver_faces_whoever_looks(Findings& findings, Length /*length*/)
             darkest = std::min(darkest, static_cast<double>(pixel(shown.image, x, 4).x));
         }
         const std::string name = moving ? "moving: " : "at rest: ";
-        findings.none(name + "non-finite values", shown.nonfinite_count);
+        findings.none(name + "non-finite values", shown.bad_values.all());
         findings.at_most(name + "depth off, relative", off, 1e-3);
         findings.at_most(name + "normal is not a unit towards the viewer", not_unit, 1e-3);
         // It emits 0.25 and reflects the sky besides.

@@ -14,6 +14,7 @@ struct Group {
 Group accumulation_group();
 Group bsdf_group();
 Group build_group();
+Group counters_group();
 Group display_group();
 Group environment_group();
 Group estimators_group();
@@ -47,6 +48,7 @@ inline std::vector<Group> all_groups()
         accumulation_group(),
         bsdf_group(),
         build_group(),
+        counters_group(),
         display_group(),
         environment_group(),
         estimators_group(),

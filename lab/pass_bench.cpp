@@ -37,7 +37,7 @@ PassBench::PassBench(const std::string& shader, const Defines& defines, Extent e
     , extent_(extent)
     , frame_(frame_at_rest(extent))
     , frame_block_("bench frame", bytes_of(frame_))
-    , counters_("bench counters", bytes_of(std::uint32_t{0}))
+    , counters_("bench counters", bytes_of(BadValues::Counts{}))
     , tiles_("bench tiles",
           std::vector<std::byte>(sizeof(glm::vec4) * static_cast<std::size_t>(extent.width)
               * static_cast<std::size_t>(extent.height)))
@@ -149,11 +149,11 @@ std::vector<glm::vec4> PassBench::read(const std::string& name) const
     return texels;
 }
 
-std::uint32_t PassBench::nonfinite_count() const
+BadValues PassBench::bad_values() const
 {
-    std::uint32_t count = 0;
-    glGetNamedBufferSubData(counters_.id(), 0, sizeof count, &count);
-    return count;
+    BadValues values;
+    glGetNamedBufferSubData(counters_.id(), 0, sizeof values.counts(), values.counts().data());
+    return values;
 }
 
 }  // namespace farlight::lab

@@ -5,6 +5,7 @@
 #include "server/gl/buffer.h"
 #include "server/gl/program.h"
 #include "server/gl/texture.h"
+#include "server/render/bad_values.h"
 #include "shaders/shared/frame_constants.h"
 
 #include <map>
@@ -41,7 +42,7 @@ public:
     /// Texels row by row from the top, of a texture of floats.
     std::vector<glm::vec4> read(const std::string& name) const;
     /// Of counter_block, since the bench was made.
-    std::uint32_t nonfinite_count() const;
+    BadValues bad_values() const;
 
 private:
     void bind() const;

@@ -17,7 +17,7 @@ constexpr PoisonedStage kStages[] = {
     {"gbuffer/gbuffer.comp", "out_albedo", "true", true, false},
     {"svgf/temporal.comp", "out_light", "true", true, true},
     {"svgf/temporal.comp", "out_light_2", "true", true, true, false, "SIGNAL_PAIR"},
-    {"svgf/temporal.comp", "out_moments", "true", false, true},
+    {"svgf/temporal.comp", "out_moments", "true", true, true},
     {"svgf/temporal.comp", "out_length", "true", false, true},
     {"svgf/variance.comp", "out_light", "true", true, true},
     {"svgf/atrous.comp", "out_light", "step_size == 1", true, true},

@@ -21,7 +21,7 @@ struct PoisonedStage {
     const char* file;
     const char* output;
     const char* condition;  ///< Under which this run of the shader is meant.
-    bool counted;  ///< What is bad there is counted once; else it is no light and not counted.
+    bool counted;  ///< What is bad there is counted; else it is no light and not counted.
     bool filled;  ///< A later stage fills the hole from around it: from 16 pixels away there is
                   ///< nothing.
     bool bits = false;  ///< The texture holds whole numbers.

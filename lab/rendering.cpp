@@ -58,7 +58,7 @@ Image rendered(const DeviceScene& scene, const Rendering& how)
     std::uint32_t nonfinite = 0;
     for (int i = 0; i < how.frames; ++i) {
         frame = view.render(linear_request(scene.scene, how.extent, how.settings));
-        nonfinite += frame.nonfinite_count;
+        nonfinite += frame.bad_values.all();
     }
     if (nonfinite > 0)
         std::fill(frame.image.bytes.begin(), frame.image.bytes.end(), std::byte{0xff});

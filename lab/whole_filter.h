@@ -106,10 +106,13 @@ public:
         return static_cast<int>(std::count_if(moments.begin(), moments.end(),
             [](const glm::vec4& m) { return !std::isfinite(m.x + m.y); }));
     }
-    std::uint32_t bad_values() const
+    /// Of all frames.
+    BadValues bad_values() const
     {
-        return temporal_->nonfinite_count() + variance_->nonfinite_count()
-            + atrous_->nonfinite_count();
+        BadValues met = temporal_->bad_values();
+        met.add(variance_->bad_values());
+        met.add(atrous_->bad_values());
+        return met;
     }
 
 private:

@@ -13,6 +13,8 @@ constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kHeaderSizeAt = 6;
 constexpr std::size_t kPassCountAt = 10;
 constexpr std::size_t kPassesSizeAt = 12;
+constexpr std::size_t kStageCountAt = 132;
+constexpr std::size_t kCountsOfStage = 4 * sizeof(std::uint32_t);
 constexpr std::size_t kAlignment = 8;
 
 template <typename T> void put(std::vector<std::byte>& bytes, std::size_t at, T value)
@@ -58,22 +60,74 @@ std::size_t kept_length(const std::string& name)
     return length;
 }
 
-Decoded<std::vector<PassEntry>> decode_passes(std::span<const std::byte> table, std::size_t count)
+std::size_t aligned(std::size_t size)
 {
-    std::vector<PassEntry> passes;
+    return (size + kAlignment - 1) / kAlignment * kAlignment;
+}
+
+/// Bytes of a table whose entries have `size` bytes after their names.
+template <typename Entry>
+std::size_t table_size(const std::vector<Entry>& entries, std::size_t size)
+{
+    std::size_t sum = 0;
+    for (const Entry& entry : entries)
+        sum += 1 + kept_length(entry.name) + size;
+    return aligned(sum);
+}
+
+/// Writes a name and its length at `at`, which moves behind it.
+void put_name(std::vector<std::byte>& bytes, std::size_t& at, const std::string& name)
+{
+    const std::size_t length = kept_length(name);
+    put(bytes, at++, static_cast<std::uint8_t>(length));
+    for (std::size_t i = 0; i < length; ++i)
+        bytes[at++] = static_cast<std::byte>(name[i]);
+}
+
+/// Entries of `size` bytes after their names, which `read(entry, at)` reads.
+template <typename Entry>
+Decoded<std::vector<Entry>> decode_table(std::span<const std::byte> table, std::size_t count,
+    std::pair<const char*, std::size_t> field_and_size, auto&& read)
+{
+    const auto [field, size] = field_and_size;
+    std::vector<Entry> entries;
     std::size_t at = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t length = at < table.size() ? std::to_integer<std::size_t>(table[at]) : 0;
-        if (at + 1 + length + sizeof(float) > table.size())
-            return refuse(ErrorCode::kOutOfRange, "passes", "end inside pass " + std::to_string(i));
-        PassEntry& pass = passes.emplace_back();
+        if (at + 1 + length + size > table.size())
+            return refuse(ErrorCode::kOutOfRange, field, "end inside entry " + std::to_string(i));
+        Entry& entry = entries.emplace_back();
         std::transform(table.begin() + static_cast<std::ptrdiff_t>(at + 1),
             table.begin() + static_cast<std::ptrdiff_t>(at + 1 + length),
-            std::back_inserter(pass.name), [](std::byte b) { return std::to_integer<char>(b); });
-        pass.milliseconds = get<float>(table, at + 1 + length);
-        at += 1 + length + sizeof(float);
+            std::back_inserter(entry.name), [](std::byte b) { return std::to_integer<char>(b); });
+        read(entry, at + 1 + length);
+        at += 1 + length + size;
     }
-    return passes;
+    return entries;
+}
+
+Decoded<std::vector<PassEntry>> decode_passes(std::span<const std::byte> table, std::size_t count)
+{
+    return decode_table<PassEntry>(table, count, {"passes", sizeof(float)},
+        [&](PassEntry& pass, std::size_t at) { pass.milliseconds = get<float>(table, at); });
+}
+
+/// `header`: all header_size bytes of it.
+Decoded<std::vector<StageEntry>> decode_stages(std::span<const std::byte> header)
+{
+    if (header.size() < kFrameHeaderSize)
+        return std::vector<StageEntry>{};
+    const std::size_t count = get<std::uint16_t>(header, kStageCountAt);
+    if (count > kMaxStages)
+        return refuse(ErrorCode::kOutOfRange, "stage_count", "is " + std::to_string(count));
+    const std::span<const std::byte> table = header.subspan(kFrameHeaderSize);
+    return decode_table<StageEntry>(
+        table, count, {"stages", kCountsOfStage}, [&](StageEntry& stage, std::size_t at) {
+            StageEntry::each_count(stage, [&](std::uint32_t& value, std::string_view) {
+                value = get<std::uint32_t>(table, at);
+                at += sizeof value;
+            });
+        });
 }
 
 }  // namespace
@@ -81,29 +135,35 @@ Decoded<std::vector<PassEntry>> decode_passes(std::span<const std::byte> table, 
 std::vector<std::byte> encode_frame_header(const FrameHeader& header)
 {
     assert(header.passes.size() <= kMaxPasses);
-    std::size_t passes_size = 0;
-    for (const PassEntry& pass : header.passes)
-        passes_size += 1 + kept_length(pass.name) + sizeof(float);
-    passes_size = (passes_size + kAlignment - 1) / kAlignment * kAlignment;
+    assert(header.stages.size() <= kMaxStages);
+    const std::size_t header_size = kFrameHeaderSize + table_size(header.stages, kCountsOfStage);
+    assert(header_size <= std::numeric_limits<std::uint16_t>::max());
+    const std::size_t passes_size = table_size(header.passes, sizeof(float));
 
-    std::vector<std::byte> bytes(kFrameHeaderSize + passes_size);
+    std::vector<std::byte> bytes(header_size + passes_size);
     for (std::size_t i = 0; i < kFrameMagic.size(); ++i)
         bytes[i] = static_cast<std::byte>(kFrameMagic[i]);
     put(bytes, kVersionAt, kFrameVersion);
-    put(bytes, kHeaderSizeAt, kFrameHeaderSize);
+    put(bytes, kHeaderSizeAt, static_cast<std::uint16_t>(header_size));
+    put(bytes, kStageCountAt, static_cast<std::uint16_t>(header.stages.size()));
     put(bytes, kPassCountAt, static_cast<std::uint16_t>(header.passes.size()));
     put(bytes, kPassesSizeAt, static_cast<std::uint32_t>(passes_size));
     FrameHeader::each_field(
         header, [&](std::size_t at, std::string_view, auto value) { put(bytes, at, value); });
 
     std::size_t at = kFrameHeaderSize;
+    for (const StageEntry& stage : header.stages) {
+        put_name(bytes, at, stage.name);
+        StageEntry::each_count(stage, [&](std::uint32_t value, std::string_view) {
+            put(bytes, at, value);
+            at += sizeof value;
+        });
+    }
+    at = header_size;
     for (const PassEntry& pass : header.passes) {
-        const std::size_t length = kept_length(pass.name);
-        put(bytes, at, static_cast<std::uint8_t>(length));
-        for (std::size_t i = 0; i < length; ++i)
-            bytes[at + 1 + i] = static_cast<std::byte>(pass.name[i]);
-        put(bytes, at + 1 + length, pass.milliseconds);
-        at += 1 + length + sizeof(float);
+        put_name(bytes, at, pass.name);
+        put(bytes, at, pass.milliseconds);
+        at += sizeof pass.milliseconds;
     }
     return bytes;
 }
@@ -143,6 +203,10 @@ Decoded<FrameView> decode_frame(std::span<const std::byte> message)
             "is " + std::to_string(view.header.payload_size) + ", found "
                 + std::to_string(view.payload.size()) + " bytes");
 
+    auto stages = decode_stages(message.first(header_size));
+    if (const auto* error = std::get_if<DecodeError>(&stages))
+        return *error;
+    view.header.stages = std::move(*std::get_if<std::vector<StageEntry>>(&stages));
     const std::size_t pass_count = get<std::uint16_t>(message, kPassCountAt);
     if (pass_count > kMaxPasses)
         return refuse(ErrorCode::kOutOfRange, "pass_count", "is " + std::to_string(pass_count));

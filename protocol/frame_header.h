@@ -17,10 +17,12 @@ namespace farlight::protocol {
 
 constexpr std::array<char, 4> kFrameMagic{'F', 'A', 'R', 'L'};
 constexpr std::uint8_t kFrameVersion = 1;
-constexpr std::uint16_t kFrameHeaderSize = 128;  ///< [bytes] of the fixed part this version writes.
+/// [bytes] of the fixed part this version writes, without its table of stages.
+constexpr std::uint16_t kFrameHeaderSize = 136;
 /// The fixed part that every v1 header has; fields beyond a header's end keep their defaults.
 constexpr std::uint16_t kSmallestFrameHeaderSize = 80;
 constexpr std::size_t kMaxPasses = 256;
+constexpr std::size_t kMaxStages = 256;
 constexpr std::size_t kMaxPassNameBytes = 255;
 
 /// Bits of FrameHeader::flags.
@@ -39,6 +41,25 @@ struct PassEntry {
     float milliseconds = 0;
 
     bool operator==(const PassEntry&) const = default;
+};
+
+/// Pixels in which a stage met values that no healthy frame has.
+struct StageEntry {
+    std::string name;
+    std::uint32_t nan = 0;
+    std::uint32_t infinite = 0;
+    std::uint32_t negative = 0;
+    std::uint32_t clamped = 0;
+
+    bool operator==(const StageEntry&) const = default;
+
+    static void each_count(auto& s, auto&& visit)
+    {
+        visit(s.nan, "nan");
+        visit(s.infinite, "infinite");
+        visit(s.negative, "negative");
+        visit(s.clamped, "clamped");
+    }
 };
 
 /// What estimates are before there is any.
@@ -62,7 +83,7 @@ struct FrameHeader {
     std::uint32_t trace_us = 0;
     std::uint32_t denoise_us = 0;
     std::uint32_t encode_us = 0;
-    std::uint32_t nonfinite_count = 0;
+    std::uint32_t nonfinite_count = 0;  ///< Of all stages, as the two below.
     float scene_time = 0;  ///< [s] that the picture shows; 0 where nothing follows time.
     std::uint64_t framebuffer_hash = 0;  ///< XXH64, seed 0, of the unencoded pixel bytes.
     float predicted_lower = kNotEstimated;  ///< 95 % interval of predicted_error.
@@ -76,14 +97,17 @@ struct FrameHeader {
     std::uint32_t frame_us = 0;  ///< Whole frame on the device, what passes leave out included.
     std::uint16_t samples_per_pixel = 0;  ///< In effect.
     float noise_error = kNotEstimated;  ///< The part of predicted_error that is noise.
+    std::uint32_t negative_count = 0;
+    std::uint32_t clamped_count = 0;
     std::uint16_t rung = 0;  ///< 1-based point of the newest `frontier` that drew it; 0: none.
 
+    std::vector<StageEntry> stages;  ///< Those that met such values, in the order of a frame.
     std::vector<PassEntry> passes;  ///< In execution order.
 
     bool has(std::uint16_t flag) const { return (flags & flag) != 0; }
 
     /// visit(offset [bytes], name, member) for the fields of the fixed part that a picture decides;
-    /// magic, version, header_size, pass_count and passes_size follow from the rest.
+    /// magic, version, header_size, stage_count, pass_count and passes_size follow from the rest.
     static void each_field(auto& h, auto&& visit)
     {
         visit(5, "format", h.format);
@@ -117,6 +141,8 @@ struct FrameHeader {
         visit(116, "samples_per_pixel", h.samples_per_pixel);
         visit(118, "rung", h.rung);
         visit(120, "noise_error", h.noise_error);
+        visit(124, "negative_count", h.negative_count);
+        visit(128, "clamped_count", h.clamped_count);
     }
 };
 
@@ -126,8 +152,9 @@ struct FrameView {
     std::span<const std::byte> payload;
 };
 
-/// Fixed part and pass table; the payload of header.payload_size bytes is to follow at once.
-/// Asserts at most kMaxPasses passes; longer names are cut to kMaxPassNameBytes.
+/// Fixed part, tables of stages and passes; the payload of header.payload_size bytes is to follow
+/// at once. Asserts at most kMaxStages stages and kMaxPasses passes; longer names are cut to
+/// kMaxPassNameBytes.
 std::vector<std::byte> encode_frame_header(const FrameHeader& header);
 
 /// A whole binary message. Refuses anything but exactly header, pass table and payload.

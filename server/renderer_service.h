@@ -35,6 +35,7 @@ public:
     }
     std::string failure() const override { return renderer_.failure(); }
     std::uint64_t frames_rendered() const override { return renderer_.frames_rendered(); }
+    BadValueTotals bad_values() const override { return renderer_.bad_values(); }
 
 private:
     Renderer& renderer_;

@@ -1,5 +1,6 @@
 // farlight bench: milliseconds a pass, and latency beyond what drawing and encoding take.
 #include "client/camera_path.h"
+#include "client/cli/bad_values.h"
 #include "client/cli/bench_effects.h"
 #include "client/cli/bench_setting.h"
 #include "client/cli/command.h"
@@ -33,6 +34,7 @@ struct PassTimes {
     std::vector<std::pair<std::string, double>>
         passes;  ///< Median milliseconds, in execution order.
     double trace = 0, denoise = 0, encode = 0;  ///< Median milliseconds.
+    BadValuesMet met;  ///< In all frames, those to warm up included.
 };
 
 struct Latency {
@@ -54,8 +56,10 @@ PassTimes measure_passes(const Target& target, const protocol::Size& size, int f
     Session session(target.url(), hello);
     std::vector<std::pair<std::string, std::vector<double>>> passes;
     std::vector<double> trace, denoise, encode;
+    BadValuesMet met;
     for (int i = 0; i < kWarmUpFrames + frames; ++i) {
         const auto header = session.draw(pose_at_frame(session.welcome(), i)).header;
+        met.add(header);
         if (i < kWarmUpFrames)
             continue;
         trace.push_back(header.trace_us / 1000.0);
@@ -72,7 +76,8 @@ PassTimes measure_passes(const Target& target, const protocol::Size& size, int f
         .passes = {},
         .trace = quantile(trace, 0.5),
         .denoise = quantile(denoise, 0.5),
-        .encode = quantile(encode, 0.5)};
+        .encode = quantile(encode, 0.5),
+        .met = std::move(met)};
     for (const auto& [name, values] : passes)
         times.passes.emplace_back(name, quantile(values, 0.5));
     return times;
@@ -120,6 +125,7 @@ void print_table(const std::vector<PassTimes>& sizes, const Latency& latency)
             std::printf("  %-28s %8.2f\n", name.c_str(), milliseconds);
         std::printf("  %-28s %8.2f\n  %-28s %8.2f\n  %-28s %8.2f\n", "= trace", times.trace,
             "= denoise", times.denoise, "encode (jpeg420)", times.encode);
+        std::printf("%s", times.met.to_text().c_str());
     }
     std::printf("latency at %ux%u, %d camera moves, sent to decoded\n", kLatencySize[0],
         kLatencySize[1], latency.moves);
@@ -140,7 +146,8 @@ nlohmann::json to_json(const std::vector<PassTimes>& sizes, const Latency& laten
         for (const auto& [name, milliseconds] : times.passes)
             passes.push_back({{"name", name}, {"median_ms", milliseconds}});
         json["sizes"].push_back({{"size", times.size}, {"passes", passes},
-            {"trace_ms", times.trace}, {"denoise_ms", times.denoise}, {"encode_ms", times.encode}});
+            {"trace_ms", times.trace}, {"denoise_ms", times.denoise}, {"encode_ms", times.encode},
+            {"bad_values", times.met.to_json()}});
     }
     return json;
 }

@@ -75,6 +75,7 @@ nlohmann::json report(int number, const std::string& file, const Frame& frame)
     return {{"frame", number}, {"file", file}, {"trace_ms", header.trace_us / 1000.0},
         {"denoise_ms", header.denoise_us / 1000.0}, {"encode_ms", header.encode_us / 1000.0},
         {"samples", header.accumulated_samples}, {"nonfinite", header.nonfinite_count},
+        {"negative", header.negative_count}, {"clamped", header.clamped_count},
         {"bytes", frame.payload.size()}, {"passes", passes}};
 }
 

@@ -4,6 +4,7 @@
 import { element, fixed } from "./dom.js";
 import { ORIGINS, errorNumber, errorOf, frontierOf, interval, milliseconds, oneMore } from "./frontier.js";
 import { FrontierPlot } from "./frontier_plot.js";
+import { badValues } from "./protocol.js";
 import { Goal } from "./goal.js";
 
 const REFRESH_MS = 250;     // more often, numbers cannot be read
@@ -25,7 +26,7 @@ const ROWS = [
     ["drawing", "Drawing", "tracing and denoising on the server"],
     ["encoding", "Encoding", "from pixels to bytes"],
     ["network", "Network", "a ping there and back, median"],
-    ["faulty", "Non-finite", "NaN and infinite values met while drawing: must be 0"],
+    ["faulty", "Bad values", "NaN, infinite, negative and clamped values met while drawing: must be 0"],
 ];
 
 /** The time that this frame's samples took [ms]; NaN without passes. */
@@ -55,7 +56,7 @@ function cellsOf(header, passes, roundTrip) {
         drawing: [`${fixed((header.trace_us + header.denoise_us) / 1000)} ms`, header.frame_us ? `of ${fixed(header.frame_us / 1000)} in all` : ""],
         encoding: [`${fixed(header.encode_us / 1000)} ms`, "to bytes"],
         network: [Number.isFinite(roundTrip) ? `${fixed(roundTrip)} ms` : "–", "there and back"],
-        faulty: [String(header.nonfinite_count), header.nonfinite_count ? "values: the picture is faulty" : "values"],
+        faulty: [String(badValues(header)), badValues(header) ? "pixels: the picture is faulty" : "pixels"],
     };
 }
 
@@ -133,8 +134,8 @@ export class Accuracy {
     #refresh() {
         this.#drawnAt = performance.now();
         const error = this.#header && errorOf(this.#header);
-        const faulty = this.#header?.nonfinite_count > 0;
-        this.#nodes.word.textContent = faulty ? `${this.#header.nonfinite_count} non-finite values`
+        const faulty = this.#header !== null && badValues(this.#header) > 0;
+        this.#nodes.word.textContent = faulty ? `${badValues(this.#header)} bad values`
             : error ? `${errorNumber(error.value)} ${error.measured ? "measured" : "predicted"}` : "";
         this.#nodes.word.classList.toggle("bad", faulty);
         if (!this.#nodes.box.open)
@@ -154,7 +155,7 @@ export class Accuracy {
         for (const key of ["predicted", "noise", "measured", "raw", "effective", "more"])
             this.#cells[key][0].parentElement.hidden = (!estimates || key === "noise") && this.#cells[key][0].textContent === "–";
         this.#nodes.formula.hidden = !estimates;
-        this.#cells.faulty[0].parentElement.classList.toggle("bad", this.#header.nonfinite_count !== 0);
+        this.#cells.faulty[0].parentElement.classList.toggle("bad", badValues(this.#header) !== 0);
     }
 
     #drawPlot() {

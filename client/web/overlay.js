@@ -1,6 +1,7 @@
 // The statistics over the picture: what moves, how late it is, and where the milliseconds go.
 import { bytesShort, element, fixed } from "./dom.js";
 import { errorNumber, errorOf } from "./frontier.js";
+import { KINDS, badValues } from "./protocol.js";
 
 const REFRESH_MS = 250;   // more often, numbers cannot be read
 const FORMAT_NAMES = { jpeg420: "JPEG 4:2:0", jpeg444: "JPEG 4:4:4", png: "PNG", raw: "raw float" };
@@ -19,7 +20,7 @@ export const FIGURES = [
     ["traffic", "Traffic", "size of the newest frame, and bytes received a second"],
     ["error", "Error", "relMSE = mean((x − r)² / (r² + 0.01)) of the picture; how it is known is said beside it"],
     ["samples", "Samples", "paths a pixel in this picture since camera or settings last changed"],
-    ["nonfinite", "Non-finite", "NaN and infinite values met while drawing; 0 in a healthy picture"],
+    ["bad", "Bad values", "NaN, infinite, negative and clamped values met while drawing, by stage where there are any; 0 in a healthy picture"],
 ];
 
 /** The words for what a frame's flags say. */
@@ -46,6 +47,15 @@ function passRow(name) {
     return { time, fill, row: element("tr", {}, element("th", { scope: "row" }, name), time, track) };
 }
 
+/** A row a stage that met bad values; kinds that none met have no column. */
+function badTable(stages) {
+    const kinds = KINDS.filter((kind) => stages.some((stage) => stage[kind] > 0));
+    const cells = (texts) => texts.map((text) => element("td", {}, text));
+    return [element("caption", {}, "Pixels with bad values, by stage"),
+        element("thead", {}, element("tr", {}, element("th", { scope: "row" }, "stage"), ...kinds.map((kind) => element("th", { scope: "col" }, kind)))),
+        element("tbody", {}, ...stages.map((stage) => element("tr", {}, element("th", { scope: "row" }, stage.name), ...cells(kinds.map((kind) => String(stage[kind]))))))];
+}
+
 /** At most MOST_PASSES rows in the order of execution; the shortest passes are summed up in the last. */
 export function passRows(passes) {
     if (passes.length <= MOST_PASSES)
@@ -62,7 +72,7 @@ function bigFigure(key, unit) {
 }
 
 export class Overlay {
-    #root; #state; #rate; #late; #cells = {}; #bar = {}; #legend = {}; #passes; #graph;
+    #root; #state; #rate; #late; #cells = {}; #bar = {}; #legend = {}; #passes; #graph; #bad;
     #passNames = null; #passRows = [];
     #frame = null; #statistics;
     #timer; #drawnAt = -Infinity;
@@ -86,7 +96,8 @@ export class Overlay {
         }
         this.#graph = element("canvas", { width: 240, height: 32, role: "img", "aria-label": "Camera-to-picture latency of the last 60 moves" });
         this.#passes = element("tbody");
-        root.append(this.#state, element("div", { className: "headline" }, this.#rate.node, this.#late.node), this.#graph, element("table", { className: "figures" }, element("tbody", {}, ...rows)),
+        this.#bad = element("table", { className: "stages-met", hidden: true });
+        root.append(this.#state, element("div", { className: "headline" }, this.#rate.node, this.#late.node), this.#graph, element("table", { className: "figures" }, element("tbody", {}, ...rows)), this.#bad,
             element("div", { className: "stages" }, bar, legend),
             element("table", { className: "passes" }, element("caption", {}, "Milliseconds per pass"), this.#passes));
         this.level = "full";
@@ -118,7 +129,7 @@ export class Overlay {
 
     #draw() {
         this.#drawnAt = performance.now();
-        const { header, passes, bytes, decodeMs, shownMs } = this.#frame;
+        const { header, stages, passes, bytes, decodeMs, shownMs } = this.#frame;
         const times = STAGES.map((stage) => header[`${stage}_us`] / 1000);
         const total = times.reduce((sum, time) => sum + time, 0);
         const latency = this.#statistics.latency();
@@ -139,12 +150,14 @@ export class Overlay {
             traffic: bytesShort(bytes) + (done ? "" : `, ${bytesShort(rate.bytes)}/s`),
             error: errorWords(header),
             samples: `${header.accumulated_samples} a pixel`,
-            nonfinite: String(header.nonfinite_count),
+            bad: String(badValues(header)),
         };
         for (const [key, text] of Object.entries(figures))
             this.#cells[key].textContent = text;
         this.#cells.error.parentElement.hidden = figures.error === "";
-        this.#cells.nonfinite.classList.toggle("bad", header.nonfinite_count !== 0);
+        this.#cells.bad.classList.toggle("bad", badValues(header) !== 0);
+        this.#bad.hidden = stages.length === 0;
+        this.#bad.replaceChildren(...(stages.length ? badTable(stages) : []));
         STAGES.forEach((stage, i) => {
             this.#bar[stage].style.flexGrow = times[i];
             this.#legend[stage].textContent = fixed(times[i]);

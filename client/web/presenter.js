@@ -12,7 +12,7 @@ export class Presenter {
     #decoding = Promise.resolve();
     #ready = null;        // the newest decoded frame that is not yet drawn
 
-    /** on.shown(frame), on.undecodable(header, reason), on.overtaken(); a frame carries {header, passes, decodeMs, shownMs, bytes}. */
+    /** on.shown(frame), on.undecodable(header, reason), on.overtaken(); a frame carries {header, stages, passes, decodeMs, shownMs, bytes}. */
     constructor(canvas, on) {
         this.#canvas = canvas;
         this.#context = canvas.getContext("2d", { alpha: false });

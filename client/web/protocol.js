@@ -10,6 +10,12 @@ export const FORMATS = ["jpeg420", "jpeg444", "png", "raw"];
 
 export const FLAGS = { still: 1, lossless: 2, history_reset: 4, converged: 8 };
 
+/** Kinds of bad values, in the order of the stage table's counts. */
+export const KINDS = ["nan", "infinite", "negative", "clamped"];
+
+/** Values of a frame that no healthy one has. */
+export const badValues = ({ nonfinite_count, negative_count, clamped_count }) => nonfinite_count + negative_count + clamped_count;
+
 /** Close codes after which a client may connect again. Codes not listed: it may. */
 export const RECONNECT_AFTER = {
     1000: false, 1001: true, 1002: false, 1003: false, 1007: false, 1008: false, 1009: false,
@@ -29,8 +35,11 @@ export const HEADER_FIELDS = [
     [88, "f32", "measured_error"], [92, "f32", "measured_lower"], [96, "f32", "measured_upper"],
     [100, "u32", "reference_samples"], [104, "f32", "effective_samples"], [108, "f32", "raw_error"],
     [112, "u32", "frame_us"], [116, "u16", "samples_per_pixel"], [118, "u16", "rung"], [120, "f32", "noise_error"],
+    [124, "u32", "negative_count"], [128, "u32", "clamped_count"], [132, "u16", "stage_count"],
 ];
 const SMALLEST_HEADER = 80;
+const STAGES_AT = 136;
+const MOST_STAGES = 256;
 const MOST_PASSES = 256;
 
 /** Fields a client may send, by message type; `true` marks a required one. */
@@ -135,25 +144,38 @@ function readHeader(view) {
     return header;
 }
 
-function readPasses(view, header) {
-    if (header.pass_count > MOST_PASSES)
-        throw new ProtocolError(`a frame has ${header.pass_count} passes, expected at most ${MOST_PASSES}`);
-    const passes = [];
-    const end = header.header_size + header.passes_size;
-    let at = header.header_size;
-    for (let i = 0; i < header.pass_count; ++i) {
+/** `count` entries from `at` on: a name, and what `read(offset)` gives of the `size` bytes after it. */
+function readTable(view, what, { count, most, at, end, size, read }) {
+    if (count > most)
+        throw new ProtocolError(`the ${what} table of a frame has ${count} entries, expected at most ${most}`);
+    const entries = [];
+    for (let i = 0; i < count; ++i) {
         const length = at < end ? view.getUint8(at) : 0;
-        if (at + 1 + length + 4 > end)
-            throw new ProtocolError(`pass ${i} of a frame lies outside the pass table`);
+        if (at + 1 + length + size > end)
+            throw new ProtocolError(`${what} ${i} of a frame lies outside the ${what} table`);
         const name = new TextDecoder().decode(new Uint8Array(view.buffer, view.byteOffset + at + 1, length));
-        passes.push({ name, ms: view.getFloat32(at + 1 + length, true) });
-        at += 1 + length + 4;
+        entries.push({ name, ...read(at + 1 + length) });
+        at += 1 + length + size;
     }
-    return passes;
+    return entries;
+}
+
+function readPasses(view, { pass_count, header_size, passes_size }) {
+    return readTable(view, "pass", {
+        count: pass_count, most: MOST_PASSES, at: header_size, end: header_size + passes_size, size: 4,
+        read: (at) => ({ ms: view.getFloat32(at, true) }),
+    });
+}
+
+function readStages(view, { stage_count, header_size }) {
+    return readTable(view, "stage", {
+        count: stage_count, most: MOST_STAGES, at: STAGES_AT, end: header_size, size: 16,
+        read: (at) => Object.fromEntries(KINDS.map((kind, i) => [kind, view.getUint32(at + 4 * i, true)])),
+    });
 }
 
 /**
- * One binary message, an ArrayBuffer, taken apart. Returns {header, passes, payload}: `header` by the
+ * One binary message, an ArrayBuffer, taken apart. Returns {header, stages, passes, payload}: `header` by the
  * names of PROTOCOL.md, with `format` as its word, `flags` as booleans by name and the hash as hex;
  * `payload` is a view into the message. Throws ProtocolError.
  */
@@ -161,10 +183,11 @@ export function decodeFrame(buffer) {
     const view = new DataView(buffer);
     const header = readHeader(view);
     const passes = readPasses(view, header);
+    const stages = readStages(view, header);
     const payload = new Uint8Array(buffer, header.header_size + header.passes_size, header.payload_size);
     const bits = header.flags;
     header.format = FORMATS[header.format];
     header.flags = Object.fromEntries(Object.entries(FLAGS).map(([name, bit]) => [name, (bits & bit) !== 0]));
     header.framebuffer_hash = header.framebuffer_hash.toString(16).padStart(16, "0");
-    return { header, passes, payload };
+    return { header, stages, passes, payload };
 }

@@ -91,7 +91,8 @@ inline ViewRecipe recipe_of(DebugView view, const FrameBuffers& b, const ViewSca
         case DebugView::kFlip: return {b.flip, "VIEW_RED", "SHOW_MAGMA", 1};
         case DebugView::kFinal:
         case DebugView::kSheet:
-        case DebugView::kWipe: break;
+        case DebugView::kWipe:
+        case DebugView::kBadValues: break;
         }
         return {{}, nullptr, "SHOW_NORMAL", 1};
     }();
@@ -149,6 +150,28 @@ inline TextureHandle add_debug_display(
     if (show_as != "SHOW_NORMAL" && show_as != "SHOW_ID")
         pass.constant("value_scale", recipe.scale);
     return display;
+}
+
+/// Where the passes before met values that no healthy frame has, over the dimmed picture `display`.
+inline TextureHandle add_bad_values(FrameGraph& graph, TextureHandle display)
+{
+    const TextureHandle painted = graph.create("bad values", GL_RGBA8);
+    graph.add_pass("bad values", "debug_view/bad_values.comp")
+        .wait_for_blocks()
+        .read("in_display", display)
+        .write("out_display", painted);
+    return painted;
+}
+
+/// The same as numbers (rgba32f).
+inline TextureHandle add_bad_value_numbers(FrameGraph& graph)
+{
+    const TextureHandle numbers = graph.create("bad values.value", GL_RGBA32F);
+    graph.add_pass("bad values value", "debug_view/bad_values.comp")
+        .define({{"NUMBERS", "1"}})
+        .wait_for_blocks()
+        .write("out_value", numbers);
+    return numbers;
 }
 
 /// Radiance, normal, variance, history length; where a quadrant's buffer is missing the radiance

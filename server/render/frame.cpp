@@ -111,6 +111,9 @@ std::vector<ActiveEffect> effects_by_settings(const FramePlan& plan)
 TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const FramePlan& plan)
 {
     const RenderSettings& settings = plan.settings;
+    const bool paints = settings.view == DebugView::kBadValues;
+    if (paints)
+        graph.define_for_all({{"PAINTS_BAD_VALUES", "1"}});
     const bool denoises = is_denoised(plan);
     FrameBuffers buffers;
     buffers.gbuffer = add_gbuffer(graph, inputs, denoises);
@@ -124,6 +127,9 @@ TextureHandle build_frame(FrameGraph& graph, const FrameInputs& inputs, const Fr
     const TextureHandle radiance =
         is_averaged(plan) ? add_mean(graph, inputs, plan, buffers) : buffers.denoised;
 
+    if (paints)
+        return plan.linear_output ? add_bad_value_numbers(graph)
+                                  : add_bad_values(graph, add_tonemap(graph, radiance, settings));
     if (settings.view == DebugView::kWipe) {
         const TextureHandle wipe = add_wipe(graph, buffers, settings);
         return plan.linear_output ? wipe : add_tonemap(graph, wipe, settings);

@@ -53,6 +53,7 @@ void FrameGraph::begin_frame(Extent extent, std::vector<BlockInput> blocks)
     resources_.clear();
     passes_.clear();
     blocks_ = std::move(blocks);
+    defines_for_all_.clear();
     timer_.begin_frame();
 }
 
@@ -94,6 +95,7 @@ Pass& FrameGraph::add_pass(const std::string& name, const std::string& shader)
 {
     passes_.push_back({name, shader});
     passes_.back().domain = extent_;
+    passes_.back().define(defines_for_all_);
     return passes_.back();
 }
 
@@ -213,9 +215,10 @@ void FrameGraph::place_barrier(const Pass& pass)
         const GLuint id = resources_[static_cast<std::size_t>(use.texture.index)].texture->id();
         return holds(dirty_, id) || (use.write && holds(read_, id));
     });
-    if (!hazard)
+    if (!hazard && !pass.waits)
         return;
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT
+        | GL_SHADER_STORAGE_BARRIER_BIT);
     dirty_.clear();
     read_.clear();
     ++barriers_;

@@ -55,6 +55,8 @@ public:
     History history(const std::string& name, GLenum format);
     /// No history is valid in the frame declared next: call it before begin_frame().
     void forget_histories();
+    /// Every pass added to this frame from now on is compiled with these too.
+    void define_for_all(Defines defines) { defines_for_all_ = std::move(defines); }
     /// The reference is valid until the next add_pass().
     Pass& add_pass(const std::string& name, const std::string& shader);
     /// Every transient keeps its texture and content until the next begin_frame(): for those who
@@ -126,6 +128,7 @@ private:
     GpuTimer timer_;
     Extent extent_;
     std::vector<BlockInput> blocks_;
+    Defines defines_for_all_;
     std::vector<Resource> resources_;
     std::vector<Pass> passes_;
     std::map<std::string, HistoryPair> histories_;

@@ -37,6 +37,12 @@ Pass& Pass::scene(const SceneInputs& inputs)
     return define(inputs.defines);
 }
 
+Pass& Pass::wait_for_blocks()
+{
+    waits = true;
+    return *this;
+}
+
 Pass& Pass::dispatch(Extent over)
 {
     domain = over;

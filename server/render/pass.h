@@ -58,12 +58,15 @@ struct Pass {
     std::vector<std::pair<std::string, Constant>> constants;
     const SceneInputs* scene_inputs = nullptr;
     Extent domain;
+    bool waits = false;
 
     Pass& define(const Defines& more);
     Pass& read(const char* variable, TextureHandle texture);
     Pass& write(const char* variable, TextureHandle texture);
     Pass& constant(const char* variable, Constant value);
     Pass& scene(const SceneInputs& inputs);  ///< `inputs` must outlive the frame.
+    /// It reads storage blocks that passes before it write.
+    Pass& wait_for_blocks();
     Pass& dispatch(Extent over);  ///< One invocation a pixel, rounded up to whole work groups.
 };
 

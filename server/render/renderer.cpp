@@ -56,6 +56,7 @@ struct Renderer::State {
     bool woken = false;
     bool stopping = false;
     std::atomic<std::uint64_t> frames_rendered = 0;
+    BadValueTotals bad_values;  ///< Guarded by `mutex`.
     std::mutex replacing;  ///< One scene is replaced at a time.
     std::unique_ptr<GlWorker> loader;
     std::thread thread;
@@ -255,6 +256,10 @@ void Renderer::State::finish(Client& client)
     client.in_flight = false;
     RenderedFrame frame = client.view->finish();
     ++frames_rendered;
+    {
+        const std::lock_guard lock(mutex);
+        bad_values.add(frame.bad_values);
+    }
     client.source->frame_done(std::move(frame));
 }
 
@@ -371,6 +376,12 @@ std::string Renderer::failure() const
 std::uint64_t Renderer::frames_rendered() const
 {
     return state_->frames_rendered;
+}
+
+BadValueTotals Renderer::bad_values() const
+{
+    const std::lock_guard lock(state_->mutex);
+    return state_->bad_values;
 }
 
 }  // namespace farlight

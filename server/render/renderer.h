@@ -5,6 +5,7 @@
 // costs nothing.
 #pragma once
 
+#include "server/render/bad_values.h"
 #include "server/render/error_estimate.h"
 #include "server/render/image.h"
 #include "server/render/settings.h"
@@ -53,8 +54,7 @@ struct RenderedFrame {
     FrameErrors errors;
     std::uint32_t accumulated_samples =
         0;  ///< Samples a pixel since the camera or a setting last changed.
-    std::uint32_t nonfinite_count =
-        0;  ///< Non-finite values met before anything cleaned them; must be 0.
+    BadValues bad_values;  ///< Must be none.
     bool moves = false;  ///< The scene follows time: later frames may look different.
     double time = 0;  ///< Shown, of a scene that moves [s].
     bool history_reset = false;  ///< This frame started without history.
@@ -146,6 +146,8 @@ public:
     /// are drawn.
     std::string failure() const;
     std::uint64_t frames_rendered() const;
+    /// Of all frames of all sources.
+    BadValueTotals bad_values() const;
 
 private:
     struct State;

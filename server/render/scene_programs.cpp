@@ -2,6 +2,7 @@
 #include "server/render/scene_programs.h"
 
 #include "server/gl/buffer.h"
+#include "server/render/bad_values.h"
 #include "shaders/shared/frame_constants.h"
 #include "shaders/shared/scene_layout.h"
 
@@ -266,12 +267,13 @@ void rehearse(
     const shared::FrameConstants nobody_is_inside{};  // extent 0: every invocation returns at once
     const Buffer constants("rehearsal constants",
         std::as_bytes(std::span<const shared::FrameConstants, 1>(&nobody_is_inside, 1)));
-    const Buffer counters("rehearsal counters", {});
+    const Buffer counters("rehearsal counters", std::vector<std::byte>(sizeof(BadValues::Counts)));
+    const Buffer painted("rehearsal painted", {});
     FrameGraph graph(programs, software, /*strict=*/false);
     const Buffer tiles("rehearsed tile sums", {});
     graph.begin_frame(kSmall,
         {{"frame_block", constants.id()}, {"counter_block", counters.id()},
-            {"tile_block", tiles.id()}});
+            {"tile_block", tiles.id()}, {"painted_block", painted.id()}});
     declare(graph, inputs);
     graph.execute();
     glFinish();

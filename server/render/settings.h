@@ -55,6 +55,7 @@ enum class DebugView : std::uint8_t {
     kMeasuredError,
     kFlip,  ///< FLIP between the denoised picture and the running mean.
     kWipe,  ///< Two states of the picture beside each other.
+    kBadValues,  ///< Where values were met that no healthy frame has (bad_values.h).
 };
 /// What a side of the wipe shows.
 enum class WipeSide : std::uint8_t { kRaw, kDenoised, kAccumulated };
@@ -65,7 +66,8 @@ constexpr std::string_view kTonemapNames[] = {"aces", "linear"};
 constexpr std::string_view kDebugViewNames[] = {"final", "sheet", "raw_radiance", "direct",
     "indirect", "specular", "scattered", "albedo", "emission", "depth", "depth_gradient",
     "position", "geometric_normal", "shading_normal", "object_id", "material_id", "motion",
-    "variance", "history_length", "predicted_deviation", "measured_error", "flip", "wipe"};
+    "variance", "history_length", "predicted_deviation", "measured_error", "flip", "wipe",
+    "bad_values"};
 constexpr std::string_view kWipeSideNames[] = {"raw", "denoised", "accumulated"};
 
 struct RenderSettings {

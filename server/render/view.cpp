@@ -75,7 +75,8 @@ View::View(const SharedScene& scene)
     : scene_(scene)
     , graph_(scene.programs, scene.software, scene.strict)
     , constants_("frame constants", object_bytes(shared::FrameConstants{}))
-    , counters_("counters", object_bytes(std::uint32_t{0}))
+    , counters_("counters", object_bytes(BadValues::Counts{}))
+    , painted_("painted", {})
     , tiles_("tile sums", {})
 {
     if (scene.keep_all)
@@ -139,7 +140,7 @@ void View::upload_constants(const RenderRequest& request)
     constants.frame_index = counts_.frame_index();
     constants.seed = request.settings.seed;
     constants_.update(object_bytes(constants));
-    counters_.update(object_bytes(std::uint32_t{0}));
+    counters_.update(object_bytes(BadValues::Counts{}));
 }
 
 /// What the scene and the camera's optics give to the stages of this frame.
@@ -205,6 +206,17 @@ void View::make_room_for_tiles(Extent tiles)
         tiles_ = Buffer("tile sums", std::vector<std::byte>(bytes));
 }
 
+/// A word a pixel, 0 at first; without `paints` no room is taken.
+void View::clear_painted(bool paints)
+{
+    const auto pixels =
+        static_cast<std::size_t>(key_.extent.width) * static_cast<std::size_t>(key_.extent.height);
+    if (paints || paints_)
+        painted_ =
+            Buffer("painted", std::vector<std::byte>(paints ? pixels * sizeof(std::uint32_t) : 0));
+    paints_ = paints;
+}
+
 /// Of the last frame, which must be done.
 std::vector<glm::vec4> View::tile_sums(TileSums part) const
 {
@@ -228,6 +240,7 @@ void View::begin(const RenderRequest& request)
     plan_ = plan_of(request);
     const FramePlan& plan = plan_;
     make_room_for_tiles(tiles_of(key_.extent));
+    clear_painted(plan.settings.view == DebugView::kBadValues);
     const FrameInputs values = inputs_of(request);
     const DeclareFrame declare = [plan, values](FrameGraph& graph, const SceneInputs& inputs) {
         build_frame(graph, values.with_scene(inputs), plan);
@@ -236,7 +249,7 @@ void View::begin(const RenderRequest& request)
         scene_.scene_programs.choose(plan.settings.effects, effects_of(plan), declare);
     graph_.begin_frame(key_.extent,
         {{"frame_block", constants_.id()}, {"counter_block", counters_.id()},
-            {"tile_block", tiles_.id()}});
+            {"tile_block", tiles_.id()}, {"painted_block", painted_.id()}});
     const TextureHandle result = build_frame(graph_, values.with_scene(variant.inputs), plan);
     graph_.keep(result);
     graph_.execute();
@@ -265,8 +278,8 @@ RenderedFrame View::finish()
     frame_.image.full_extent = full_extent_;
     for (TextureAllocation& held : graph_.allocations())
         frame_.memory.emplace_back(std::move(held.name), held.bytes);
-    glGetNamedBufferSubData(
-        counters_.id(), 0, sizeof frame_.nonfinite_count, &frame_.nonfinite_count);
+    BadValues::Counts& counts = frame_.bad_values.counts();
+    glGetNamedBufferSubData(counters_.id(), 0, sizeof counts, counts.data());
     const ErrorLooks& looks = plan_.looks;
     frame_.errors = errors_.add({
         .starts_anew = frame_.history_reset || new_filter_,

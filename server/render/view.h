@@ -87,12 +87,15 @@ private:
     bool converged(const RenderSettings& settings) const;
     bool keeps_flip(const RenderRequest& request);
     void make_room_for_tiles(Extent tiles);
+    void clear_painted(bool paints);
     std::vector<glm::vec4> tile_sums(TileSums part) const;
 
     const SharedScene& scene_;
     FrameGraph graph_;
     Buffer constants_;
-    Buffer counters_;
+    Buffer counters_;  ///< BadValues.
+    Buffer painted_;  ///< Where there were any; nothing, unless the frame shows it.
+    bool paints_ = false;
     Readback readback_;
     SampleKey key_;
     std::vector<double> filter_;  ///< What the denoised picture depends on: see filter_key().

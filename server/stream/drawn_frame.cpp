@@ -30,6 +30,18 @@ void put_errors(const FrameErrors& errors, protocol::FrameHeader& header)
     header.raw_error = static_cast<float>(errors.raw);
 }
 
+void put_bad_values(const BadValues& met, protocol::FrameHeader& header)
+{
+    header.nonfinite_count = met.nonfinite();
+    header.negative_count = met.of(BadKind::kNegative);
+    header.clamped_count = met.of(BadKind::kClamped);
+    for (const CountedStage& stage : kCountedStages)
+        if (met.of(stage) > 0)
+            header.stages.push_back({std::string(stage.name), met.of(stage, BadKind::kNan),
+                met.of(stage, BadKind::kInfinite), met.of(stage, BadKind::kNegative),
+                met.of(stage, BadKind::kClamped)});
+}
+
 }  // namespace
 
 EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
@@ -52,7 +64,7 @@ EncodeTask task_for(RenderedFrame&& frame, const Draw& draw,
     header.camera_sequence = draw.camera_sequence;
     header.session_epoch = draw.session_epoch;
     header.accumulated_samples = frame.accumulated_samples;
-    header.nonfinite_count = frame.nonfinite_count;
+    put_bad_values(frame.bad_values, header);
     header.scene_time = static_cast<float>(frame.time);
     if (draw.asked)
         header.wait_us =

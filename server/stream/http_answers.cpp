@@ -140,7 +140,7 @@ HttpResponse answer(const HttpRequest& request, Hub& hub)
     }
     if (path == "/metrics")
         return make_answer(request, status::ok,
-            hub.metrics.text(hub.renderer.frames_rendered(), hub.frames_in_flight()),
+            hub.metrics.text(hub.renderer, hub.frames_in_flight()),
             "text/plain; version=0.0.4; charset=utf-8");
     if (path == protocol::kEndpoint) {
         HttpResponse response = make_answer(request, status::upgrade_required,

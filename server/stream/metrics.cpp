@@ -46,6 +46,12 @@ double open_file_descriptors()
     return error ? 0 : static_cast<double>(std::distance(begin(descriptors), end(descriptors)));
 }
 
+/// To a number counted elsewhere, which only grows.
+void raise_to(prometheus::Counter& counter, std::uint64_t value)
+{
+    counter.Increment(static_cast<double>(value) - counter.Value());
+}
+
 double seconds(std::chrono::steady_clock::duration duration)
 {
     return std::chrono::duration<double>(duration).count();
@@ -82,6 +88,9 @@ Metrics::Metrics(const RendererDescription& description)
     , closes_(counters(registry_, "farlight_closes_total", "Connections ended, by close code"))
     , handshakes_rejected_(
           counters(registry_, "farlight_handshake_rejected_total", "WebSocket upgrades refused"))
+    , bad_values_(counters(registry_, "farlight_bad_values_total",
+          "Pixels in which a stage met NaN, infinite, negative or clamped values, all frames "
+          "together"))
 {
     prometheus::BuildGauge()
         .Name("farlight_build_info")
@@ -148,9 +157,15 @@ void Metrics::frame_acknowledged(const Pacing::Acknowledgement& times)
         input_to_ack_seconds_.Observe(seconds(*times.since_asked));
 }
 
-std::string Metrics::text(std::uint64_t frames_rendered, int frames_in_flight)
+std::string Metrics::text(const RenderService& renderer, int frames_in_flight)
 {
-    frames_rendered_.Increment(static_cast<double>(frames_rendered) - frames_rendered_.Value());
+    raise_to(frames_rendered_, renderer.frames_rendered());
+    const BadValueTotals met = renderer.bad_values();
+    for (const CountedStage& stage : kCountedStages)
+        for (const BadKindRow& row : kBadKinds)
+            raise_to(bad_values_.Add(
+                         {{"stage", std::string(stage.name)}, {"kind", std::string(row.name)}}),
+                met.of(stage, row.kind));
     frames_in_flight_.Set(frames_in_flight);
     resident_memory_.Set(resident_bytes());
     open_fds_.Set(open_file_descriptors());

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "protocol/messages.h"
-#include "server/render/renderer.h"
 #include "server/stream/pacing.h"
+#include "server/stream/render_service.h"
 
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
@@ -30,7 +30,7 @@ public:
     void frame_acknowledged(const Pacing::Acknowledgement& times);
 
     /// The text of /metrics, with what only the caller knows filled in.
-    std::string text(std::uint64_t frames_rendered, int frames_in_flight);
+    std::string text(const RenderService& renderer, int frames_in_flight);
 
 private:
     prometheus::Registry registry_;
@@ -51,6 +51,7 @@ private:
     prometheus::Family<prometheus::Counter>& frames_dropped_;
     prometheus::Family<prometheus::Counter>& closes_;
     prometheus::Family<prometheus::Counter>& handshakes_rejected_;
+    prometheus::Family<prometheus::Counter>& bad_values_;
 };
 
 }  // namespace farlight

@@ -22,6 +22,7 @@ public:
     virtual void edit(const nlohmann::json& merge_patch, bool reset) = 0;
     virtual std::string failure() const = 0;
     virtual std::uint64_t frames_rendered() const = 0;
+    virtual BadValueTotals bad_values() const = 0;
 };
 
 }  // namespace farlight

@@ -13,8 +13,7 @@
 // Calculating Corrected Sums of Squares and Products".
 #version 450
 #include "error_estimate/relative.glsl"
-#include "lib/frame.glsl"
-#include "lib/numbers.glsl"
+#include "lib/unknown.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -29,6 +28,9 @@ uniform writeonly image2D out_reference;
 uniform int takes_reference;  // 1: this frame's mean becomes the reference
 #endif
 
+// What differs from the mean by more than a square can hold has the largest square that there is.
+const float MOST_SQUARE = 1e36;
+
 uniform int frame_count;  // frames in the mean with this one, >= 1
 
 void main()
@@ -37,6 +39,7 @@ void main()
     if (!inside_frame(px))
         return;
     const vec3 radiance = texelFetch(in_radiance, px, 0).rgb;
+    const bool known = counted_known(STAGE_ACCUMULATE, radiance);
     const float count = float(frame_count);
     vec3 mean = radiance;
     vec3 variance = vec3(0.0);
@@ -46,16 +49,26 @@ void main()
         const vec3 old_variance = texelFetch(prev_variance, px, 0).rgb;
         mean = old;
         variance = is_light(old_variance) ? old_variance : vec3(0.0);
-        if (is_light(radiance)) {  // else there is no sample, and the others stand
+        if (known) {  // else there is no sample, and the others stand
             mean = old + (radiance - old) / count;
-            variance += ((radiance - old) * (radiance - mean) - variance) / count;
+            const vec3 square = (radiance - old) * (radiance - mean);
+            note(STAGE_ACCUMULATE, max_component(square) > MOST_SQUARE ? IS_CLAMPED : 0u);
+            variance += (min(square, vec3(MOST_SQUARE)) - variance) / count;
         }
         // Of n - 1 degrees of freedom, and of a mean of n.
         noise = relative_variance(variance / (count - 1.0), mean);
+    }
+    const uint kinds = kinds_in(mean, variance);
+    note(STAGE_ACCUMULATE, kinds);
+    if (kinds != 0u) {
+        mean = unknown_light();
+        variance = vec3(0.0);
+        noise = 0.0;
     }
     imageStore(out_mean, px, vec4(mean, noise));
     imageStore(out_variance, px, vec4(variance, 0.0));
 #ifdef WITH_REFERENCE
     imageStore(out_reference, px, takes_reference != 0 ? vec4(mean, noise) : texelFetch(prev_reference, px, 0));
 #endif
+    tell_noted(px, STAGE_ACCUMULATE);
 }

@@ -7,8 +7,7 @@
 // If the denoiser is off by b and the mean of n samples has variance v / n, the best mix of the two gives the mean
 // the weight b^2 / (b^2 + v / n) = n / (n + n*), where n* = v / b^2 is the count at which both are equally good.
 #version 450
-#include "lib/frame.glsl"
-#include "lib/numbers.glsl"
+#include "lib/unknown.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -27,5 +26,7 @@ void main()
     const vec3 mean = texelFetch(in_mean, px, 0).rgb;
     const vec3 mix_of_both = denoised + mean_weight * (mean - denoised);
     const vec3 known = is_light(denoised) ? denoised : mean;
-    imageStore(out_radiance, px, vec4(is_light(denoised) && is_light(mean) ? mix_of_both : known, 1.0));
+    const vec3 refined = is_light(denoised) && is_light(mean) ? mix_of_both : known;
+    imageStore(out_radiance, px, vec4(counted_light(STAGE_ACCUMULATE, refined), 1.0));
+    tell_noted(px, STAGE_ACCUMULATE);
 }

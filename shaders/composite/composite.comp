@@ -28,21 +28,26 @@ void main()
     if (!inside_frame(px))
         return;
     Signals light = Signals(vec3(0.0), vec3(0.0), vec3(0.0));
-    bool known = true;
+    const vec3 emission = texelFetch(in_emission, px, 0).rgb;
+    bool known = counted_known(STAGE_COMPOSITE, emission);
 #ifdef LIT
     const vec3 direct = texelFetch(in_direct, px, 0).rgb;
     const vec3 indirect = texelFetch(in_indirect, px, 0).rgb;
     light.diffuse = direct + indirect;
-    known = counted_known(is_light(direct) && is_light(indirect), abs(direct) + abs(indirect));
+    note(STAGE_COMPOSITE, kinds_in(direct, indirect));
+    known = known && is_light(direct) && is_light(indirect);
 #ifdef FX_FOG
     light.scattered = texelFetch(in_scattered, px, 0).rgb;
-    known = counted_known(is_light(light.scattered), light.scattered) && known;
+    known = counted_known(STAGE_COMPOSITE, light.scattered) && known;
 #endif
 #endif
 #ifdef FX_SPECULAR_SIGNAL
     light.specular = texelFetch(in_specular, px, 0).rgb;
-    known = counted_known(is_light(light.specular), light.specular) && known;
+    known = counted_known(STAGE_COMPOSITE, light.specular) && known;
 #endif
-    const vec3 radiance = compose(px, texelFetch(in_emission, px, 0).rgb, light);
-    imageStore(out_radiance, px, vec4(known ? counted_light(radiance) : unknown_light(), 1.0));
+    vec3 radiance = unknown_light();
+    if (known)
+        radiance = counted_light(STAGE_COMPOSITE, compose(px, emission, light));
+    imageStore(out_radiance, px, vec4(radiance, 1.0));
+    tell_noted(px, STAGE_COMPOSITE);
 }

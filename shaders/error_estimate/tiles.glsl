@@ -1,8 +1,7 @@
 // Sums over tiles of 8x8 pixels, one invocation each, for the host to add up: it gets intervals from how much they differ.
 #pragma once
 #include "error_estimate/relative.glsl"
-#include "lib/frame.glsl"
-#include "lib/numbers.glsl"
+#include "lib/counters.glsl"
 
 const int TILE_SIZE = 8;  // [px]; server/render/error_estimate.h
 
@@ -23,10 +22,15 @@ void main()
     const ivec2 first = tile * TILE_SIZE;
     const ivec2 size = min(ivec2(frame.extent) - first, ivec2(TILE_SIZE));
     vec4 sum = vec4(0.0);
+    ivec2 at = first;
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {
             const vec4 one = sums_at(first + ivec2(x, y));
-            sum += all_finite(one.xyz) ? one : vec4(0.0);
+            const uint kinds = nonfinite_in(dot(one, vec4(1.0)));
+            note(STAGE_ERROR_ESTIMATE, kinds);
+            sum += kinds == 0u ? one : vec4(0.0);
+            at = kinds == 0u ? at : first + ivec2(x, y);
         }
     tile_sums[tile_offset + tile.x + tile.y * tiles.x] = sum;
+    tell_noted(at, STAGE_ERROR_ESTIMATE);
 }

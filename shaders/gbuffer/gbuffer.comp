@@ -16,6 +16,7 @@
 #include "lib/primary_ray.glsl"
 #include "geometry/hit_texel.glsl"
 #include "gbuffer/first_surface.glsl"
+#include "lib/unknown.glsl"
 #ifdef FX_SPECULAR_SIGNAL
 #include "gbuffer/reflectance.glsl"
 #endif
@@ -75,22 +76,32 @@ void main()
     const vec3 depth = depth_and_gradient(primary.direction, s.position, s.geometric_normal);
     const float way = met ? length(s.position - ray.origin) : T_INFINITY;
     const vec3 left = left_of_first_segment(way);
-    const vec3 albedo = met ? diffuse_albedo(m, s, ray) : vec3(0.0);
-    const vec3 emission = met ? m.emission : environment_radiance(ray.direction);
+    const vec4 motion = met ? motion_of(s.position, s.prev_position) : vec4(0.0);
+    const vec3 albedo = left * (met ? diffuse_albedo(m, s, ray) : vec3(0.0));
+    const vec3 emission = left * (met ? m.emission : environment_radiance(ray.direction));
+    note(STAGE_PRIMARY_RAY, nonfinite_in(dot(ray.origin + ray.direction, vec3(1.0))));
+    note_cause(STAGE_GBUFFER, nonfinite_in(met ? dot(depth + s.position, vec3(1.0)) : 0.0));
+    note_cause(STAGE_GBUFFER, kinds_in(albedo, emission));
+#ifdef FX_SPECULAR_SIGNAL
+    const vec4 specular = met ? reflectance(m, -ray.direction) : vec4(0.0, 0.0, 0.0, -1.0);
+    note_cause(STAGE_GBUFFER, kinds_in(specular.rgb));
+#endif
 
     imageStore(out_hit, px, pack_hit(hit));
     imageStore(out_surface, px, met ? uvec4(floatBitsToUint(depth), pack_octahedral(m.shading_normal)) : uvec4(0u));
     imageStore(out_identity, px,
         met ? uvec4(s.object, s.material, pack_octahedral(s.geometric_normal), 1u) : uvec4(0u));
     imageStore(out_position, px, met ? vec4(s.position, 1.0) : vec4(0.0));
-    imageStore(out_albedo, px, vec4(left * albedo, met ? 1.0 : 0.0));
-    imageStore(out_emission, px, vec4(left * emission, 1.0));
-    imageStore(out_motion, px, met ? motion_of(s.position, s.prev_position) : vec4(0.0));
+    imageStore(out_albedo, px, vec4(noted == 0u ? albedo : vec3(0.0), met ? 1.0 : 0.0));
+    imageStore(out_emission, px, vec4(light_if_known(emission), 1.0));
+    imageStore(out_motion, px, motion);
 #ifdef FX_SPECULAR_SIGNAL
-    imageStore(out_reflectance, px, met ? reflectance(m, -ray.direction) : vec4(0.0, 0.0, 0.0, -1.0));
+    imageStore(out_reflectance, px, specular);
 #endif
 #ifdef FX_FOG
     const vec2 span = fog_span(scene_fog(), ray.origin, ray.direction, way);
     imageStore(out_fog_way, px, vec4(camera_in_the_open() ? span.y - span.x : 0.0));
 #endif
+    note_cause(STAGE_GBUFFER, nonfinite_in(dot(motion, vec4(1.0))));
+    tell_noted(px, STAGE_PRIMARY_RAY);
 }

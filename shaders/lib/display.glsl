@@ -2,10 +2,13 @@
 #pragma once
 #include "lib/numbers.glsl"
 
+const float MOST_DISPLAYABLE = 1e30;
+
 // NaN becomes 0, +Inf the largest value.
 vec3 displayable(vec3 x)
 {
-    return vec3(x.r > 0.0 ? min(x.r, 1e30) : 0.0, x.g > 0.0 ? min(x.g, 1e30) : 0.0, x.b > 0.0 ? min(x.b, 1e30) : 0.0);
+    return vec3(x.r > 0.0 ? min(x.r, MOST_DISPLAYABLE) : 0.0, x.g > 0.0 ? min(x.g, MOST_DISPLAYABLE) : 0.0,
+        x.b > 0.0 ? min(x.b, MOST_DISPLAYABLE) : 0.0);
 }
 
 // A curve close to the ACES reference rendering and output transforms, for x >= 0.

@@ -6,20 +6,20 @@
 // -0: nothing in a sum, and told apart from black by is_light().
 vec3 unknown_light() { return vec3(uintBitsToFloat(0x80000000u)); }
 
-// What a stage has worked out, where it is light; else it is counted and unknown from here on.
-vec3 counted_light(vec3 value)
+// What a stage has worked out, where it is light; else it is noted and unknown from here on.
+vec3 counted_light(uint stage, vec3 value)
 {
-    if (all(greaterThanEqual(value, vec3(0.0))) && all_finite(value))
-        return abs(value);
-    atomicAdd(nonfinite_count, 1u);
-    return unknown_light();
+    const uint kinds = kinds_in(value);
+    note(stage, kinds);
+    return kinds == 0u ? abs(value) : unknown_light();
 }
 
-// Whether a stage has been given light. What is neither that nor left out by an earlier stage is counted.
-bool counted_known(bool known, vec3 given)
+// Light of an invocation that has met nothing bad.
+vec3 light_if_known(vec3 light) { return noted == 0u ? abs(light) : unknown_light(); }
+
+// Whether a stage has been given light. What is neither that nor left out by an earlier stage is noted.
+bool counted_known(uint stage, vec3 given)
 {
-    const uvec3 magnitude = floatBitsToUint(given) << 1u;
-    if (!known && max(magnitude.x, max(magnitude.y, magnitude.z)) != 0u)
-        atomicAdd(nonfinite_count, 1u);
-    return known;
+    note(stage, kinds_in(given));
+    return is_light(given);
 }

@@ -2,6 +2,7 @@
 // Source: Veach 1997, "Robust Monte Carlo Methods for Light Transport Simulation", chapter 9.
 #pragma once
 #include "path_trace/vertex.glsl"
+#include "lib/counters.glsl"
 
 #ifdef FX_LIGHTS
 uniform int light_sampling;  // 0: light is met by chance only
@@ -12,6 +13,8 @@ Scattered sample_direct(Vertex v, vec4 u)
 {
     const LightSample light = sample_lights(v.position, v.shading_normal, u);
     const Scattered value = scatter(v, light.wi);
+    note_cause(STAGE_LIGHT, kinds_in(light.radiance, value.diffuse + value.specular));
+    note_cause(STAGE_LIGHT, kinds_in(vec3(light.pdf, value.pdf, 0.0)));
     const bool useful = light.pdf > 0.0 && value.pdf > 0.0 && max_component(light.radiance) > 0.0;
     // Both ends are offset off their surfaces, each by its own rounding error, and the ray runs between them.
     const vec3 from = leave(v, light.wi);

@@ -79,6 +79,12 @@ Gathered nothing_gathered()
     return g;
 }
 
+// Of what a ray brought back: the way, the normal, and where nothing was met the ray itself.
+uint kinds_of_hit(Ray ray, Surface s, bool met, float way)
+{
+    return nonfinite_in(met ? way + dot(s.geometric_normal, ray.direction) : dot(ray.direction, ray.direction));
+}
+
 // A path from its first vertex on. `first_bounce` sets its random numbers apart from other paths of the sample;
 // `cone` is the width of the pixel's cone there [m] and what it grows by a metre.
 Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, vec2 cone)
@@ -125,6 +131,7 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
 #endif
             next = throughput * weight;
         }
+        note_cause(STAGE_THROUGHPUT, alive ? kinds_in(first ? weight : next, vec3(bounce.weight.pdf)) : 0u);
         const float survive = clamp(max_component(next), 0.05, 1.0);
         if (segment > roulette_depth) {
             alive = alive && u.z < survive;
@@ -139,6 +146,7 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
         const bool met = hit.slot != NO_HIT;
         const Surface s = surface_at(hit, ray);
         const float way = length(s.position - ray.origin);
+        note_cause(STAGE_HIT, alive ? kinds_of_hit(ray, s, met, way) : 0u);
         cone.y += 0.25 * bounce.roughness;  // a quarter of what the lobe covers is filtered, the rest is sampled
         cone.x += cone.y * way;
         const ShadedMaterial m = material_at(s, -ray.direction,
@@ -163,6 +171,7 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
             const FogEvent event
                 = sample_fog(scene_fog(), span.y - span.x, random4(px, frame.seed, sample_index, bounce_index, SLOT_FOG).xy);
             throughput *= event.weight;
+            note_cause(STAGE_FOG, alive ? kinds_in(event.weight) : 0u);
             if (event.scattered) {
                 there = fog_vertex(there, ray, span.x + event.way);
                 found = vec3(0.0);
@@ -189,17 +198,18 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
         }
         v = there;
         ++segment;
-        alive = alive && goes_on && segment <= max_depth;
+        alive = alive && goes_on && segment <= max_depth && noted == 0u;
     } while (alive);
     return sum;
 }
 
-// The mean of all samples so far from that of this dispatch's.
+// The mean of all samples so far from that of this dispatch's. Where one of both is not known, the other stands.
 #ifdef CONTINUES
 #define MEAN_WITH(before, mean) mean_with(texelFetch(before, px, 0), mean)
 vec4 mean_with(vec4 before, vec4 mean)
 {
-    return before + (mean - before) * (float(samples_per_pixel) / float(samples_before + samples_per_pixel));
+    const vec4 both = before + (mean - before) * (float(samples_per_pixel) / float(samples_before + samples_per_pixel));
+    return !is_light(before.rgb) ? mean : is_light(mean.rgb) ? both : before;
 }
 #else
 #define MEAN_WITH(before, mean) (mean)
@@ -224,8 +234,9 @@ void main()
     first.bsdf.albedo = vec3(1.0);  // the composite multiplies it back
     const float footprint = frame.camera.pixel_footprint;
 
+    note_cause(STAGE_HIT, kinds_of_hit(ray, s, met, way));
     Gathered sum = nothing_gathered();
-    const bool lit = met && scatters(m) && max_depth > 1;
+    const bool lit = met && scatters(m) && max_depth > 1 && noted == 0u;
     int paths = lit ? samples_per_pixel : 0;
 #ifdef FX_FOG
     // Two paths a sample, one from the surface and one from the fog before it; what the fog lacks is skipped.
@@ -256,6 +267,7 @@ void main()
                 span.y - span.x, random4(uvec2(px), frame.seed, sample_index, first_bounce - 1u, SLOT_FOG).xy);
             start = fog_vertex(first, ray, span.x + event.way);
             cone.x = footprint * (span.x + event.way);
+            note_cause(STAGE_FOG, kinds_in(event.weight));
         }
 #endif
         const Gathered g = trace_path(start, uvec2(px), sample_index, first_bounce, cone);
@@ -278,21 +290,32 @@ void main()
         ++i;
     }
     const float weight = 1.0 / float(samples_per_pixel);
-    imageStore(out_direct, px, MEAN_WITH(in_direct, vec4(counted_light(sum.direct * weight), 0.0)));
-    imageStore(out_indirect, px, MEAN_WITH(in_indirect, vec4(counted_light(sum.indirect * weight), 0.0)));
+    const vec3 direct = sum.direct * weight;
+    const vec3 indirect = sum.indirect * weight;
+    note_cause(STAGE_RADIANCE, kinds_in(direct, indirect));
 #ifdef FX_SPECULAR_SIGNAL
     const vec4 reflectance = texelFetch(in_reflectance, px, 0);
     const vec3 seen = sum.specular * weight * left_of_first_segment(met ? way : T_INFINITY);
     const vec3 specular = reflectance.a >= 0.0 ? seen / reflectance.rgb : vec3(0.0);
+    note_cause(STAGE_RADIANCE, kinds_in(specular));
+#endif
+#ifdef FX_FOG
+    scattered *= weight;
+    note_cause(STAGE_FOG, kinds_in(scattered));
+#endif
+    imageStore(out_direct, px, MEAN_WITH(in_direct, vec4(light_if_known(direct), 0.0)));
+    imageStore(out_indirect, px, MEAN_WITH(in_indirect, vec4(light_if_known(indirect), 0.0)));
+#ifdef FX_SPECULAR_SIGNAL
     // Beyond ten thousand times the view distance nothing shifts any more.
     const float distance = distance_count > 0.0 ? min(distance_sum / distance_count, 1e4 * way) : 0.0;
-    imageStore(out_specular, px, MEAN_WITH(in_specular, vec4(counted_light(specular), distance)));
+    imageStore(out_specular, px, MEAN_WITH(in_specular, vec4(light_if_known(specular), distance)));
 #ifdef CONTINUES
     shown = shown.x != 0u ? shown : texelFetch(in_shown, px, 0);
 #endif
     imageStore(out_shown, px, shown);
 #endif
 #ifdef FX_FOG
-    imageStore(out_scattered, px, MEAN_WITH(in_scattered, vec4(counted_light(scattered * weight), 0.0)));
+    imageStore(out_scattered, px, MEAN_WITH(in_scattered, vec4(light_if_known(scattered), 0.0)));
 #endif
+    tell_noted(px, STAGE_HIT);
 }

@@ -45,7 +45,8 @@ void main()
     const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
     if (!inside_frame(px))
         return;
-    const Light light = load_own_light(px);
+    const uint stage = STAGE_ATROUS_1 + uint(findMSB(step_size));
+    const Light light = load_own_light(stage, px);
     const Guide p = guide_at(px);
     const vec2 luminance_p = vec2(luminance(light.first.rgb), luminance(light.second.rgb));
     // The floor only matters where there is no variance: rounding of the luminance itself. From what is not known nothing
@@ -84,6 +85,7 @@ void main()
     const vec2 scale = 1.0 / weight_sum;
     const Light mean = Light(sum * vec2(scale.x, scale.x * scale.x).xxxy,
         sum_2 * vec2(scale.y, scale.y * scale.y).xxxy, half_sum * scale, min(weight_sum.x, weight_sum.y) >= LEAST_WEIGHT);
-    store_light(px, Light(filtered ? mean.first : light.first, filtered ? mean.second : light.second,
+    store_light(stage, px, Light(filtered ? mean.first : light.first, filtered ? mean.second : light.second,
                         filtered ? mean.half_difference : light.half_difference, filtered ? mean.known : light.known));
+    tell_noted(px, stage);
 }

@@ -22,9 +22,11 @@ uint bfloat16(float x)
     return (bits + 0x7fffu + ((bits >> 16u) & 1u)) >> 16u;
 }
 
+const float MOST_VARIANCE = 1e38;
+
 float pack_noise(float variance, float half_difference)
 {
-    const uint upper = bfloat16(clamp(variance, 1.1755e-38, 1e38)) << 16u;
+    const uint upper = bfloat16(clamp(variance, 1.1755e-38, MOST_VARIANCE)) << 16u;
 #ifdef ERROR_ESTIMATE
     return uintBitsToFloat(upper | bfloat16(half_difference));
 #else

@@ -44,17 +44,20 @@ Light load_light(ivec2 q)
 }
 
 // The light that a pixel itself brings, nothing where it is not known.
-Light load_own_light(ivec2 px)
+Light load_own_light(uint stage, ivec2 px)
 {
     const Light light = load_light(px);
-    return counted_known(light.known, abs(light.first.rgb) + abs(light.second.rgb))
-        ? light
-        : Light(vec4(0.0), vec4(0.0), vec2(0.0), false);
+    note(stage, kinds_in(light.first.rgb, light.second.rgb));
+    return light.known ? light : Light(vec4(0.0), vec4(0.0), vec2(0.0), false);
 }
 
-void store_light(ivec2 px, Light light)
+void store_light(uint stage, ivec2 px, Light light)
 {
-    if (!light.known)
+    const vec2 variance = vec2(light.first.a, light.second.a);
+    const uint kinds = kinds_in(light.first.rgb, light.second.rgb) | kinds_in(vec3(variance, 0.0));
+    note(stage, light.known ? kinds : 0u);
+    note(stage, light.known && max(variance.x, variance.y) > MOST_VARIANCE ? IS_CLAMPED : 0u);
+    if (!light.known || kinds != 0u)
         light = Light(vec4(unknown_light(), 0.0), vec4(unknown_light(), 0.0), vec2(0.0), false);
     imageStore(out_light, px, vec4(light.first.rgb, pack_noise(light.first.a, light.half_difference.x)));
 #ifdef SIGNAL_PAIR

@@ -98,12 +98,29 @@ HistorySum reproject(Past p)
     return sum;
 }
 
+// The mean of the taps; weight 0: history brings nothing.
+HistorySum found_in_history(Past p)
+{
+    HistorySum old = reproject(p);
+    const float weight = p.exists && old.weight > 0.0 ? old.weight : 1.0;
+    old.first /= weight;
+    old.second /= weight;
+    old.half_difference /= weight;
+    old.moments /= weight;
+    const uint kinds = kinds_in(old.first, old.second) | kinds_in(old.moments.xyz, old.moments.www)
+        | nonfinite_in(old.half_difference.x + old.half_difference.y);
+    note(STAGE_HISTORY, kinds);
+    old.weight = p.exists && kinds == 0u ? old.weight : 0.0;
+    return old;
+}
+
 // One step of the exponential average of mean and variance. What differs by more than a square can hold has the largest
 // variance that there is.
 vec2 blend_moments(vec2 old, float value, float alpha)
 {
     const float delta = value - old.x;
     const float bounded = clamp(delta, -1e18, 1e18);
+    note(STAGE_MOMENTS, abs(delta) > 1e18 ? IS_CLAMPED : 0u);
     return vec2(old.x + alpha * delta, (1.0 - alpha) * (old.y + alpha * bounded * bounded));
 }
 
@@ -134,8 +151,8 @@ void main()
         return;
     Past p = past_of(px);
     p.exists = p.exists && lit(px) && history_valid != 0;
-    const HistorySum sum = reproject(p);
-    const bool found = p.exists && sum.weight > 0.0;
+    const HistorySum old = found_in_history(p);
+    const bool found = old.weight > 0.0;
 
     vec3 first = texelFetch(in_light, px, 0).rgb;
 #ifdef SIGNAL_PAIR
@@ -143,41 +160,50 @@ void main()
 #else
     vec3 second = vec3(0.0);
 #endif
-    const bool known = counted_known(is_light(first) && is_light(second), abs(first) + abs(second));
+    note(STAGE_TEMPORAL, kinds_in(first, second));
+    const bool known = is_light(first) && is_light(second);
     vec4 moments = vec4(luminance(first), 0.0, luminance(second), 0.0);
     float length = known ? 1.0 : 0.0;
     // What is already known of the mean does not belong to the noise: it would pass where halves weigh unequally.
     vec2 half_difference = half_sign(px) * moments.xz;
     if (found) {
-        const vec4 old = sum.moments / sum.weight;
-        const vec3 old_first = sum.first / sum.weight;
-        const vec3 old_second = sum.second / sum.weight;
-        half_difference = sum.half_difference / sum.weight;
-        length = min(sum.least_length + length, float(history_max));
+        half_difference = old.half_difference;
+        length = min(old.least_length + length, float(history_max));
         if (known) {
             const float alpha = max(least_alpha(p), 1.0 / length);
             const float alpha_moments = max(svgf_moments_alpha, 1.0 / length);
-            moments
-                = vec4(blend_moments(old.xy, moments.x, alpha_moments), blend_moments(old.zw, moments.z, alpha_moments));
-            const vec2 surprise = vec2(luminance(first - old_first), luminance(second - old_second));
+            moments = vec4(blend_moments(old.moments.xy, moments.x, alpha_moments),
+                blend_moments(old.moments.zw, moments.z, alpha_moments));
+            const vec2 surprise = vec2(luminance(first - old.first), luminance(second - old.second));
             half_difference = mix(half_difference, half_sign(px) * surprise, alpha);
-            first = blend_light(old_first, first, alpha);
-            second = blend_light(old_second, second, alpha);
+            first = blend_light(old.first, first, alpha);
+            second = blend_light(old.second, second, alpha);
         } else {
-            moments = old;
-            first = old_first;
-            second = old_second;
+            moments = old.moments;
+            first = old.first;
+            second = old.second;
         }
     } else if (!known) {
         first = second = unknown_light();
         moments = unknown_light().xxxx;
     }
 
-    half_difference = is_finite(half_difference.x + half_difference.y) ? half_difference : vec2(0.0);
+    const uint light_kinds = kinds_in(first, second);
+    const uint moment_kinds = kinds_in(moments.xyz, moments.www) | nonfinite_in(half_difference.x + half_difference.y);
+    note(STAGE_TEMPORAL, light_kinds);
+    note(STAGE_MOMENTS, moment_kinds);
+    if ((light_kinds | moment_kinds) != 0u) {
+        first = unknown_light();
+        second = unknown_light();
+        moments = unknown_light().xxxx;
+        half_difference = vec2(0.0);
+        length = 0.0;
+    }
     imageStore(out_light, px, vec4(first, pack_noise(moments.y, half_difference.x)));
 #ifdef SIGNAL_PAIR
     imageStore(out_light_2, px, vec4(second, pack_noise(moments.w, half_difference.y)));
 #endif
     imageStore(out_moments, px, moments);
     imageStore(out_length, px, vec4(lit(px) ? length : 0.0));
+    tell_noted(px, STAGE_HISTORY);
 }

@@ -18,20 +18,27 @@ uniform sampler2D in_length;
 uniform int svgf_spatial_frames;  // histories shorter than this are estimated spatially
 
 const int RADIUS = 3;
+// What differs by more has the largest square that there is.
+const float MOST_DELTA = 1e18;
+// Of the second moment, what 49 rounded products may take away from it: 49 * 2^-24.
+const float ROUNDING = 3e-6;
 
 void main()
 {
     const ivec2 px = ivec2(gl_GlobalInvocationID.xy);
     if (!inside_frame(px))
         return;
-    const Light light = load_own_light(px);
-    const vec4 center = is_light(texelFetch(in_moments, px, 0)) ? texelFetch(in_moments, px, 0) : vec4(0.0);
+    const Light light = load_own_light(STAGE_VARIANCE, px);
+    const vec4 own = texelFetch(in_moments, px, 0);
+    note(STAGE_VARIANCE, kinds_in(own.xyz, own.www));
+    const vec4 center = is_light(own) ? own : vec4(0.0);
     const Guide p = guide_at(px);
     const bool spatial = takes_part(p) && texelFetch(in_length, px, 0).x < float(svgf_spatial_frames);
 
     // Moments about the middle pixel's mean, so that the difference of two large numbers is never taken.
     vec4 sum = vec4(0.0);  // first and second moment of one signal (xy), of the other (zw)
     float weight_sum = 0.0;
+    float farthest = 0.0;
     const int radius = spatial ? RADIUS : -RADIUS - 1;
     for (int y = -radius; y <= radius; ++y)
         for (int x = -radius; x <= radius; ++x) {
@@ -41,7 +48,9 @@ void main()
             const float geometry = edge_exponent(p, other, vec2(x, y));
             const float weight = exp(-geometry);
             if (inside_frame(q) && takes_part(other) && geometry >= 0.0 && is_light(moments)) {
-                const vec2 delta = moments.xz - center.xz;
+                const vec2 off = moments.xz - center.xz;
+                const vec2 delta = clamp(off, -MOST_DELTA, MOST_DELTA);
+                farthest = max(farthest, max(abs(off.x), abs(off.y)));
                 sum += weight * vec4(delta.x, moments.y + delta.x * delta.x, delta.y, moments.w + delta.y * delta.y);
                 weight_sum += weight;
             }
@@ -49,8 +58,13 @@ void main()
     vec2 variance = vec2(light.first.a, light.second.a);
     if (spatial && weight_sum > 0.0) {
         const vec4 m = sum / weight_sum;
-        variance = max(vec2(0.0), m.yw - m.xz * m.xz);
+        const vec2 spread = m.yw - m.xz * m.xz;
+        const uint kinds = kinds_in(vec3(spread + ROUNDING * m.yw, 0.0));
+        note(STAGE_VARIANCE, kinds);
+        note(STAGE_VARIANCE, farthest > MOST_DELTA ? IS_CLAMPED : 0u);
+        variance = kinds == 0u ? max(vec2(0.0), spread) : vec2(0.0);
     }
-    store_light(px, Light(vec4(light.first.rgb, variance.x), vec4(light.second.rgb, variance.y),
+    store_light(STAGE_VARIANCE, px, Light(vec4(light.first.rgb, variance.x), vec4(light.second.rgb, variance.y),
                         light.half_difference, light.known));
+    tell_noted(px, STAGE_VARIANCE);
 }

@@ -1,5 +1,6 @@
 // The pure parts of the accuracy section: what is in reach, the slider's scale, the plot's, whom a goal asks for what.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import {
     bestWithin, cheapest, cheapestReaching, denoisedIn, duration, errorAfter, errorNumber, errorOf, finest, frontierOf, interval, oneMore, reachOfError, reachOfPatience,
@@ -8,7 +9,7 @@ import {
 import { rangeFor, ticks } from "../../client/web/frontier_plot.js";
 import { kindOf, kindsFor } from "../../client/web/goal.js";
 import { barredPart, errorStops, niceRange, shareOf, timeStops, wished } from "../../client/web/goal_scale.js";
-import { VIEWS } from "../../client/web/views.js";
+import { BAD_COLOURS, VIEWS } from "../../client/web/views.js";
 import { fitted } from "../../client/web/wipe.js";
 
 const REPORT = frontierOf({ source: "report", points: [
@@ -215,4 +216,10 @@ test("each overlay's scale has colours and two ends", () => {
         assert.equal(scale.ends.length, 2, view);
         assert.ok(scale.colours.length > 1 && scale.colours.every((colour) => /^#[0-9a-f]{6}$/.test(colour)), view);
     }
+});
+
+test("the legend of bad values has the colours that the shader paints them in", () => {
+    const header = readFileSync(new URL("../../shaders/shared/bad_values.h", import.meta.url), "utf8");
+    const painted = [...header.matchAll(/^#define (\w+)_COLOR 0x([0-9a-f]{6})u$/gm)].map(([, kind, colour]) => [kind.toLowerCase(), `#${colour}`]);
+    assert.deepEqual(Object.entries(BAD_COLOURS).map(([kind, colour]) => [kind.toLowerCase(), colour]), painted);
 });

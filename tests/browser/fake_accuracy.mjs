@@ -12,7 +12,7 @@ const choice = (key, value, choices, help) => ({ key, type: "choice", value, def
 const real = (key, value, lower, upper, help) => ({ key, type: "real", value, default: value, lower, upper, help });
 const STATES = ["raw", "denoised", "accumulated"];
 
-export const ACCURACY_VIEWS = ["predicted_deviation", "measured_error", "flip", "wipe"];
+export const ACCURACY_VIEWS = ["predicted_deviation", "measured_error", "flip", "bad_values", "wipe"];
 export const ACCURACY_SETTINGS = () => [
     real("resolution_scale", 1, 0.25, 1, "size at which the picture is traced"),
     real("budget_ms", 0, 0, 10000, "[ms] a frame; 0: none"),

@@ -263,10 +263,10 @@ test("a goodbye and a refusal are told in the server's words", async () => {
     assert.equal(await page.evaluate(() => window.farlight.status.phase), "stopped");
 });
 
-test("non-finite values are shown in red, at every level of the overlay but off", async () => {
+test("bad values are shown in red, at every level of the overlay but off", async () => {
     server.behaviour.nonfinite = 3;
     await page.keyboard.press("ArrowRight");
-    const cell = page.locator("[data-stat=nonfinite].bad");
+    const cell = page.locator("[data-stat=bad].bad");
     await cell.waitFor();
     assert.equal(await cell.textContent(), "3");
     await page.keyboard.press("o");

@@ -153,7 +153,7 @@ test("a picture traced at a smaller size is shown at its full one", async () => 
 
 test("overlays that the server has are a press away, with the scale of their colours", async () => {
     const offered = await page.locator("#views input").evaluateAll((inputs) => inputs.map(({ value }) => value));
-    assert.deepEqual(offered, ["final", "predicted_deviation", "measured_error", "flip", "history_length", "variance", "wipe"]);
+    assert.deepEqual(offered, ["final", "predicted_deviation", "measured_error", "flip", "history_length", "variance", "bad_values", "wipe"]);
     assert.equal(await page.locator("#view-legend").isVisible(), false);
     await show("history_length");
     assert.equal((await untilReceived("set", ({ key }) => key === "view")).value, "history_length");
@@ -204,13 +204,22 @@ test("the divider of a split picture is dragged or moved by keys, one position a
     assert.deepEqual(page.complaints, []);
 });
 
-test("non-finite values are loud", async () => {
-    await says("#accuracy-rows [data-row=faulty]", /Non-finite0/);
-    server.behaviour.nonfinite = 7;
+test("bad values are loud: by stage and kind, and the view that paints them says which colour is which", async () => {
+    await says("#accuracy-rows [data-row=faulty]", /Bad values0/);
+    assert.equal(await page.locator(".stages-met").isVisible(), false);
+    Object.assign(server.behaviour, { nonfinite: 7, clamped: 2, stages: [{ name: "atrous_3", nan: 7 }, { name: "moments", clamped: 2 }] });
     await page.keyboard.press("ArrowRight");
-    await says("#accuracy-rows .bad", /7values: the picture is faulty/);
+    await says("#accuracy-rows .bad", /9pixels: the picture is faulty/);
+    await says(".stages-met", /by stagestagenanclampedatrous_370moments02/);
+    await show("bad_values");
+    await says("#view-legend", /Bad values.*NaNinfinitenegativeclamped/);
+    const patches = await page.locator("#view-legend .patch").evaluateAll((nodes) => nodes.map((node) => getComputedStyle(node).backgroundColor));
+    assert.equal(new Set(patches).size, 4);
+    await screenshot(page, "fake_bad_values");
+    await page.keyboard.press("o");
+    assert.equal(await page.locator(".stages-met").isVisible(), true, "in short statistics, too");
     await page.locator("#accuracy summary").click();
-    await says("#accuracy-word.bad", /7 non-finite values/); // closed, too
+    await says("#accuracy-word.bad", /9 bad values/); // closed, too
 });
 
 test("a server that knows nothing of accuracy: what is not there is hidden, and that is said", async () => {

@@ -9,7 +9,7 @@ import { createServer } from "node:http";
 import { extname } from "node:path";
 import { pathToFileURL } from "node:url";
 import { WebSocketServer } from "ws";
-import { HEADER_FIELDS, FLAGS, FORMATS } from "../../client/web/protocol.js";
+import { FLAGS, FORMATS, HEADER_FIELDS, KINDS } from "../../client/web/protocol.js";
 import { ACCURACY_SETTINGS, ACCURACY_VIEWS, accuracyFields, fakeFrontier } from "./fake_accuracy.mjs";
 import { png } from "./png.mjs";
 
@@ -47,27 +47,37 @@ function hueColour(hue, light) {
     return [0, 1 / 3, 2 / 3].map((shift) => Math.round(255 * light * (0.5 + 0.45 * Math.cos(2 * Math.PI * (hue + shift)))));
 }
 
-const NEWEST_HEADER = 128;  // bytes
+const NEWEST_HEADER = 136;  // bytes
 const OLDER_HEADER = 80;    // of a server that knows nothing of accuracy
 
-function binaryFrame(size, fields, passes, payload) {
-    const table = Buffer.concat(passes.map(({ name, ms }) => {
-        const entry = Buffer.alloc(1 + Buffer.byteLength(name) + 4);
-        entry.writeUInt8(Buffer.byteLength(name), 0);
-        entry.write(name, 1);
-        entry.writeFloatLE(ms, entry.length - 4);
+/** Names, each with what `write(entry, at, row)` writes into the `size` bytes after it; padded to 8. */
+function tableOf(rows, size, write) {
+    const table = Buffer.concat(rows.map((row) => {
+        const length = Buffer.byteLength(row.name);
+        const entry = Buffer.alloc(1 + length + size);
+        entry.writeUInt8(length, 0);
+        entry.write(row.name, 1);
+        write(entry, 1 + length, row);
         return entry;
     }));
-    const padded = Math.ceil(table.length / 8) * 8;
+    return Buffer.concat([table, Buffer.alloc(-table.length & 7)]);
+}
+
+function binaryFrame(fixed, fields, { stages = [], passes }, payload) {
+    const counts = tableOf(stages, 16, (entry, at, stage) => KINDS.forEach((kind, i) => entry.writeUInt32LE(stage[kind] ?? 0, at + 4 * i)));
+    const table = tableOf(passes, 4, (entry, at, { ms }) => entry.writeFloatLE(ms, at));
+    const size = fixed + counts.length;
+    const padded = table.length;
     const frame = Buffer.alloc(size + padded + payload.length);
     frame.write("FARL", 0, "latin1");
-    const all = { version: 1, header_size: size, pass_count: passes.length, passes_size: padded, payload_size: payload.length, ...fields };
-    for (const [offset, type, name] of HEADER_FIELDS.filter(([at]) => at < size)) {
+    const all = { version: 1, header_size: size, pass_count: passes.length, passes_size: padded, payload_size: payload.length, stage_count: stages.length, ...fields };
+    for (const [offset, type, name] of HEADER_FIELDS.filter(([at]) => at < fixed)) {
         if (type === "f32")
             frame.writeFloatLE(all[name] ?? NaN, offset);
         else if (type !== "u64")
             frame.writeUIntLE(all[name] ?? 0, offset, SIZES[type]);
     }
+    counts.copy(frame, fixed);
     table.copy(frame, size);
     payload.copy(frame, size + padded);
     return frame;
@@ -223,16 +233,16 @@ class Session {
         this.socket.send(binaryFrame(behaviour.accuracy ? NEWEST_HEADER : OLDER_HEADER, {
             format: FORMATS.indexOf(jpeg ? this.format : "png"), flags, frame_id: ++this.frame, camera_sequence: this.sequence,
             session_epoch: this.epoch, full_width: width, full_height: height, accumulated_samples: this.samples,
-            wait_us: 900, encode_us: 2100, nonfinite_count: behaviour.nonfinite,
+            wait_us: 900, encode_us: 2100, nonfinite_count: behaviour.nonfinite, clamped_count: behaviour.clamped,
             scene_time: this.time, ...fields,
-        }, ms.map(([name, time]) => ({ name, ms: time })), payload));
+        }, { stages: behaviour.stages, passes: ms.map(([name, time]) => ({ name, ms: time })) }, payload));
     }
 }
 
 export class FakeServer {
     received = [];
     sessions = new Set();
-    behaviour = { protocol: "farlight.v1", subprotocols: ["farlight.v1"], frameMs: 20, jpeg: null, nonfinite: 0, silent: false, garbage: false, moves: null, general: false, edits: true, accuracy: null, mute: false };
+    behaviour = { protocol: "farlight.v1", subprotocols: ["farlight.v1"], frameMs: 20, jpeg: null, nonfinite: 0, clamped: 0, stages: [], silent: false, garbage: false, moves: null, general: false, edits: true, accuracy: null, mute: false };
 
     constructor(behaviour = {}) {
         Object.assign(this.behaviour, behaviour);

@@ -72,7 +72,7 @@ test("after which close codes to connect again is that of section 7", () => {
 test("the example frame reads as PROTOCOL.md says", () => {
     const { header, passes, payload } = decodeFrame(exampleFrame());
     assert.deepEqual(header, {
-        version: 1, format: "raw", header_size: 128,
+        version: 1, format: "raw", header_size: 136,
         flags: { still: false, lossless: true, history_reset: true, converged: false },
         pass_count: 2, passes_size: 32, frame_id: 7, camera_sequence: 41, session_epoch: 1, payload_size: 24,
         width: 2, height: 1, full_width: 2, full_height: 1, accumulated_samples: 1,
@@ -80,7 +80,7 @@ test("the example frame reads as PROTOCOL.md says", () => {
         framebuffer_hash: "5bcc63c641b2222d",
         predicted_error: 0.25, predicted_lower: 0.125, predicted_upper: 0.5, measured_error: NaN, measured_lower: NaN,
         measured_upper: NaN, reference_samples: 0, effective_samples: 2, raw_error: 0.5, frame_us: 23000,
-        samples_per_pixel: 1, rung: 0, noise_error: 0.0625,
+        samples_per_pixel: 1, rung: 0, noise_error: 0.0625, negative_count: 0, clamped_count: 0, stage_count: 0,
     });
     assert.deepEqual(passes, [{ name: "gbuffer", ms: 1.5 }, { name: "path_trace", ms: 12.25 }]);
     const floats = new Float32Array(payload.slice().buffer);
@@ -90,9 +90,9 @@ test("the example frame reads as PROTOCOL.md says", () => {
 test("a longer header, unknown flags and unknown fields are no fault", () => {
     const old = new Uint8Array(exampleFrame());
     const longer = new Uint8Array(old.length + 8);
-    longer.set(old.subarray(0, 128));
-    longer.set(old.subarray(128), 136);
-    longer[6] = 136;
+    longer.set(old.subarray(0, 136));
+    longer.set(old.subarray(136), 144);
+    longer[6] = 144;
     longer[9] = 0x80;
     const { header, passes, payload } = decodeFrame(longer.buffer);
     assert.equal(header.flags.lossless, true);
@@ -104,14 +104,30 @@ test("a longer header, unknown flags and unknown fields are no fault", () => {
 
 test("of an older server's shorter header the missing fields are unknown", () => {
     const now = new Uint8Array(exampleFrame());
-    const older = new Uint8Array(now.length - 48);
+    const older = new Uint8Array(now.length - 56);
     older.set(now.subarray(0, 80));
-    older.set(now.subarray(128), 80);
+    older.set(now.subarray(136), 80);
     older[6] = 80;
     const { header, passes } = decodeFrame(older.buffer);
     assert.equal(passes[1].name, "path_trace");
     assert.ok(Number.isNaN(header.measured_error));
     assert.equal(header.rung, 0);
+});
+
+test("stages that met bad values are told by kind", () => {
+    const plain = new Uint8Array(exampleFrame());
+    const stage = [3, ...new TextEncoder().encode("fog"), ...[1, 2, 3, 256].flatMap((count) => [count & 255, count >> 8, 0, 0])];
+    const frame = new Uint8Array(plain.length + 24);
+    frame.set(plain.subarray(0, 136));
+    frame.set(stage, 136);
+    frame.set(plain.subarray(136), 160);
+    frame[6] = 160;
+    frame[132] = 1;
+    const { stages, passes } = decodeFrame(frame.buffer);
+    assert.deepEqual(stages, [{ name: "fog", nan: 1, infinite: 2, negative: 3, clamped: 256 }]);
+    assert.equal(passes[1].name, "path_trace");
+    frame[132] = 2;
+    assert.throws(() => decodeFrame(frame.buffer), /stage 1/);
 });
 
 for (const [fault, changes, expected] of [
@@ -120,10 +136,10 @@ for (const [fault, changes, expected] of [
     ["an unknown format", { 5: [9] }, /format 9/],
     ["a short header_size", { 6: [72, 0] }, /header_size/],
     ["a crooked passes_size", { 12: [31] }, /passes_size 31/],
-    ["a payload_size beyond the message", { 28: [25] }, /has 184 bytes, its header says 185/],
+    ["a payload_size beyond the message", { 28: [25] }, /has 192 bytes, its header says 193/],
     ["more passes than fit", { 10: [4, 0] }, /pass 3/],
-    ["far too many passes", { 10: [0xff, 0xff] }, /65535 passes/],
-    ["a pass name beyond the table", { 128: [200] }, /pass 0/],
+    ["far too many passes", { 10: [0xff, 0xff] }, /65535 entries/],
+    ["a pass name beyond the table", { 136: [200] }, /pass 0/],
 ])
     test(`a frame with ${fault} is refused`, () =>
         assert.throws(() => decodeFrame(frameWith(changes)), (error) => error instanceof ProtocolError && expected.test(error.message)));

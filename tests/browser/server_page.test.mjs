@@ -56,15 +56,15 @@ test("a drag moves the picture and the overlay tells the latency", async () => {
     await screenshot(page, "server_dragged");
 });
 
-test("the header's figures reach the overlay, and nothing is non-finite", async () => {
+test("the header's figures reach the overlay, and no value is bad", async () => {
     const passes = await page.evaluate(() => window.farlight.passes);
     assert.ok(passes.length >= 5, JSON.stringify(passes));
-    const { nonfinite_count, trace_us, encode_us } = await header();
-    assert.equal(nonfinite_count, 0);
+    const { nonfinite_count, negative_count, clamped_count, trace_us, encode_us } = await header();
+    assert.deepEqual([nonfinite_count, negative_count, clamped_count], [0, 0, 0]);
     assert.ok(trace_us > 0 && encode_us > 0);
     const rows = await page.locator(".passes tbody tr").count();
     assert.ok(rows >= 5, `${rows} rows`);
-    assert.equal(await page.locator("[data-stat=nonfinite]").textContent(), "0");
+    assert.equal(await page.locator("[data-stat=bad]").textContent(), "0");
 });
 
 test("keys move the camera", async () => {
@@ -120,7 +120,7 @@ test("errors are predicted while the camera moves and measured when it rests", a
 });
 
 test("overlays are a press away, and a split picture is raw on the left of its divider", async () => {
-    for (const view of ["predicted_deviation", "measured_error", "flip", "wipe"]) {
+    for (const view of ["predicted_deviation", "measured_error", "flip", "bad_values", "wipe"]) {
         await page.locator(`#views [value=${view}]`).check();
         await until(page, (wanted) => window.farlight.settings.view === wanted, view);
         await untilFrames(page, 3);

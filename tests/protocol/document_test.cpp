@@ -226,7 +226,7 @@ TEST(ProtocolDocument, FrameTableEqualsTheCode)
         EXPECT_EQ(page["`" + std::string(name) + "`"], std::pair(at, type)) << name;
     });
     EXPECT_EQ(page["`magic`"], std::pair(std::size_t{0}, std::string("u8[4]")));
-    EXPECT_EQ(page.size(), 5 + 31U) << "5 derived fields and those of each_field";
+    EXPECT_EQ(page.size(), 6 + 33U) << "6 derived fields and those of each_field";
 }
 
 TEST(ProtocolDocument, FlagTableEqualsTheCode)

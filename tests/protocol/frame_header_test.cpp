@@ -136,6 +136,32 @@ TEST(FrameHeader, FieldsBeyondAnOlderHeaderAreUnknown)
     EXPECT_EQ(frame->header.passes.at(1).name, "path_trace");
 }
 
+TEST(FrameHeader, StagesThatMetBadValuesLieBetweenHeaderAndPasses)
+{
+    FrameHeader header;
+    header.stages = {{"fog", 1, 2, 3, 0xffffffffU}, {std::string(300, 'x'), 0, 0, 0, 4}};
+    header.passes = {{"gbuffer", 1.5F}};
+    Bytes bytes = encode_frame_header(header);
+    const auto decoded = decode_frame(bytes);
+    const auto* frame = std::get_if<FrameView>(&decoded);
+    ASSERT_NE(frame, nullptr);
+    header.stages[1].name.resize(kMaxPassNameBytes);
+    EXPECT_EQ(frame->header.stages, header.stages);
+    EXPECT_EQ(frame->header.passes, header.passes);
+
+    const auto refused_field = [&](std::size_t at, int value) {
+        Bytes bad = bytes;
+        bad.at(at) = static_cast<std::byte>(value);
+        const auto refused = decode_frame(bad);
+        const auto* error = std::get_if<DecodeError>(&refused);
+        return error != nullptr ? error->field : "";
+    };
+    EXPECT_EQ(refused_field(132, 3), "stages") << "a third one";
+    EXPECT_EQ(refused_field(133, 2), "stage_count") << "more than 256";
+    EXPECT_EQ(refused_field(kFrameHeaderSize, 255), "stages")
+        << "a name beyond the second's counts";
+}
+
 struct BadFrame {
     const char* name;
     std::size_t at;

@@ -16,7 +16,7 @@ Image accumulate(const DeviceScene& scene, RenderRequest request, int frames)
     RenderedFrame frame;
     for (int i = 0; i < frames; ++i)
         frame = view.render(request);
-    EXPECT_EQ(frame.nonfinite_count, 0U);
+    EXPECT_EQ(frame.bad_values.all(), 0U);
     return std::move(frame.image);
 }
 

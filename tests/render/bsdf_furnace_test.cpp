@@ -66,7 +66,7 @@ TEST_P(WhiteFurnace, EverythingWhiteDisappears)
     RenderedFrame frame;
     for (int i = 0; i < 4; ++i)
         frame = view.render(request);
-    EXPECT_EQ(frame.nonfinite_count, 0U);
+    EXPECT_EQ(frame.bad_values.all(), 0U);
     const Estimate estimate = mean_of(frame.image);
     EXPECT_NEAR(estimate.mean, 1, 5 * estimate.standard_error + GetParam().tolerance);
     EXPECT_LT(estimate.standard_error, 2e-3);

@@ -40,7 +40,7 @@ Image mean_picture(const DeviceScene& scene, const RenderSettings& settings, int
     RenderedFrame frame;
     for (int i = 0; i < frames; ++i)
         frame = view.render(request);
-    EXPECT_EQ(frame.nonfinite_count, 0U);
+    EXPECT_EQ(frame.bad_values.all(), 0U);
     return std::move(frame.image);
 }
 
@@ -208,7 +208,7 @@ TEST_F(GlTest, FilterKeepsFogWhereItIs)
     const RenderRequest request = linear_request(scene, kFogExtent, s);
     for (int frame = 0; frame < 4; ++frame) {
         const RenderedFrame drawn = view.render(request);
-        ASSERT_EQ(drawn.nonfinite_count, 0U);
+        ASSERT_EQ(drawn.bad_values.all(), 0U);
         for (int y = 0; y < kFogExtent.height; ++y)
             for (int x = 0; x < kFogExtent.width; ++x)
                 // 0.05: the opacities that the filter lets through, which here are the light itself

@@ -199,7 +199,7 @@ Estimate radiance(const DeviceScene& lights, bool light_sampling, int samples)
     RenderedFrame frame;
     for (int i = 0; i < 4; ++i)
         frame = view.render(linear_request(lights.scene, {32, 32}, s));
-    EXPECT_EQ(frame.nonfinite_count, 0U);
+    EXPECT_EQ(frame.bad_values.all(), 0U);
     return mean_of(frame.image);
 }
 

@@ -133,7 +133,7 @@ protected:
         request.time = 1;
         View view(scene.shared);
         const RenderedFrame frame = view.render(request);
-        EXPECT_EQ(frame.nonfinite_count, 0U);
+        EXPECT_EQ(frame.bad_values.all(), 0U);
         return frame.image;
     }
 

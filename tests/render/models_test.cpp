@@ -52,7 +52,7 @@ protected:
             }
             const RenderedFrame frame = draw(std::move(scene));
             ++drawn;
-            EXPECT_EQ(frame.nonfinite_count, 0U);
+            EXPECT_EQ(frame.bad_values.all(), 0U);
             bool differ = false;
             for (int y = 0; y < frame.image.extent.height; ++y)
                 for (int x = 0; x < frame.image.extent.width; ++x) {

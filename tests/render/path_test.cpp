@@ -27,7 +27,7 @@ Image picture(const DeviceScene& scene, const RenderSettings& settings)
 {
     View view(scene.shared);
     RenderedFrame frame = view.render(linear_request(scene.scene, kPathExtent, settings));
-    EXPECT_EQ(frame.nonfinite_count, 0U);
+    EXPECT_EQ(frame.bad_values.all(), 0U);
     return std::move(frame.image);
 }
 

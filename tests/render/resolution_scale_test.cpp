@@ -56,7 +56,7 @@ TEST_F(ResolutionScaleTest, HistoriesLiveThroughAChange)
             now.camera.position.x += i % 2 == 0 ? 0.5 : 0;
             const RenderedFrame frame = view.render(now);
             EXPECT_EQ(frame.history_reset, ++frames == 1);
-            EXPECT_EQ(frame.nonfinite_count, 0U);
+            EXPECT_EQ(frame.bad_values.all(), 0U);
             // The share of pixels on surfaces whose history is as long as it can be: what is lost
             // lies at silhouettes, where a coarser history is of another surface.
             const Image& image = frame.image;

@@ -95,7 +95,7 @@ std::vector<WrittenTexels> Subject::draw(RenderSettings settings, const EffectCh
     for (int frame = 0; frame < kFrames; ++frame) {
         request.camera.position.x += step;
         request.time = kFirstTime + kTimeStep * frame;
-        view.render(request);
+        EXPECT_EQ(view.render(request).bad_values.all(), 0U) << "frame " << frame;
         for (const auto& [name, texture] : view.graph().written())
             all.push_back(texels_of("frame " + std::to_string(frame) + " " + name, *texture));
     }

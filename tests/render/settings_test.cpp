@@ -174,7 +174,7 @@ TEST_F(SettingsReachTheImage, EveryDebugViewDraws)
                 set_setting(request.settings, "denoiser", denoiser);
                 const RenderedFrame frame = view.render(request);
                 EXPECT_EQ(frame.image.bytes.size(), 17U * 9 * bytes_per_pixel(format));
-                EXPECT_EQ(frame.nonfinite_count, 0U);
+                EXPECT_EQ(frame.bad_values.all(), 0U);
             }
 }
 

@@ -68,7 +68,7 @@ TEST_P(ShippedAnswersTest, IsWhatTheReadmeSays)
     constexpr Extent kAnswerExtent{48, 32};
     View view(on_device.shared);
     const RenderedFrame frame = view.render(linear_request(on_device.scene, kAnswerExtent, s));
-    EXPECT_EQ(frame.nonfinite_count, 0U);
+    EXPECT_EQ(frame.bad_values.all(), 0U);
     glm::dvec3 sum(0);
     glm::dvec3 squares(0);
     for (int y = 0; y < kAnswerExtent.height; ++y)

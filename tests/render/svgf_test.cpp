@@ -76,7 +76,7 @@ TEST_F(SvgfTest, ConstantPictureStaysConstant)
     const glm::dvec3 drift = 0.02 * (scene.camera.target - scene.camera.position);
     for (int frame = 0; frame < 12; ++frame) {
         const RenderedFrame drawn = view.render(request);
-        ASSERT_EQ(drawn.nonfinite_count, 0U);
+        ASSERT_EQ(drawn.bad_values.all(), 0U);
         for (int y = 0; y < kSvgfExtent.height; ++y)
             for (int x = 0; x < kSvgfExtent.width; ++x)
                 for (int c = 0; c < 3; ++c)

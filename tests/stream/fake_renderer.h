@@ -29,11 +29,22 @@ public:
     void wake() override;
     std::string failure() const override;
     std::uint64_t frames_rendered() const override { return frames_rendered_; }
+    BadValueTotals bad_values() const override
+    {
+        const std::lock_guard lock(state_mutex_);
+        return bad_values_;
+    }
 
     void fail(const std::string& why);
     /// Every frame from now on carries this error.
     void fail_frames(const std::string& why);
     std::size_t sources() const;
+
+    void meet(const BadValues& more)
+    {
+        const std::lock_guard lock(state_mutex_);
+        bad_values_.add(more);
+    }
 
 private:
     struct View {
@@ -59,6 +70,7 @@ private:
     std::vector<std::shared_ptr<FrameSource>> attached_;  ///< Not yet in views_.
     std::string failure_;
     std::string frame_error_;
+    BadValueTotals bad_values_;
     std::atomic<std::uint64_t> frames_rendered_ = 0;
     std::thread thread_;
 };

@@ -59,6 +59,20 @@ INSTANTIATE_TEST_SUITE_P(Routes, HttpRoutes,
         Route{"AbsolutePath", "//etc/passwd", 404, "text/plain", ""}),
     [](const auto& parameter) { return parameter.param.name; });
 
+TEST(Http, MetricsTellBadValuesByStageAndKindFromTheStart)
+{
+    ServerUnderTest server;
+    const std::string row = "farlight_bad_values_total{kind=\"negative\",stage=\"composite\"} ";
+    EXPECT_THAT(http_request(server.port(), "/metrics").body(), HasSubstr(row + "0\n"));
+    BadValues met;
+    met.counts()[STAGE_COMPOSITE * KIND_COUNT + KIND_NEGATIVE] = 3;
+    for (int frame = 0; frame < 2; ++frame) {
+        server.renderer().meet(met);
+        EXPECT_THAT(http_request(server.port(), "/metrics").body(),
+            HasSubstr(row + std::to_string(3 * (frame + 1)) + "\n"));
+    }
+}
+
 TEST(Http, RefusesOtherMethods)
 {
     ServerUnderTest server;
