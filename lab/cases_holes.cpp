@@ -66,6 +66,38 @@ void things_that_are_all_hole(Findings& findings, Length /*length*/)
     }
 }
 
+double pixels_unlike(const Image& a, const Image& b)
+{
+    double unlike = 0;
+    for (int y = 0; y < a.extent.height; ++y)
+        for (int x = 0; x < a.extent.width; ++x)
+            unlike += pixel(a, x, y) == pixel(b, x, y) ? 0 : 1;
+    return unlike;
+}
+
+/// Whose texture has something elsewhere: every ray has to look. Where that takes more rounds of
+/// loops than the device goes through, the pixel is not known, and is counted.
+void many_holes(Findings& findings, Length length)
+{
+    const Rendering how = through_holes();
+    const Image without = rendered(things(), how);
+    for (const AlphaMode mode : {AlphaMode::kMask, AlphaMode::kBlend})
+        for (const int layers : {100, length == Length::kLong ? 100'000 : 10'000}) {
+            Scene scene = things();
+            hang(scene, layers, mode);
+            const Drawn through = drawn(scene, how);
+            const auto cut = static_cast<double>(through.counted.of(BadKind::kClamped));
+            const std::string name = std::to_string(layers)
+                + (mode == AlphaMode::kMask ? " open masks: " : " blends of nothing: ");
+            findings.none(name + "pixels changed beyond those counted",
+                std::max(pixels_unlike(through.image, without) - cut, 0.0));
+            findings.none(
+                name + "values that are none", static_cast<double>(through.counted.all()) - cut);
+            if (layers == 100)
+                findings.none(name + "pixels counted", cut);
+        }
+}
+
 /// What shows through half of it: half of either, through two the quarter of what is behind.
 void half_there(Findings& findings, Length length)
 {
@@ -102,10 +134,15 @@ constexpr Case kHolesCases[] = {
         "Ten thousand layers that are nothing but hole change no bit.", things_that_are_all_hole},
     {"46b", "holes", "half there", Layer::kPicture,
         "What is half there shows half of itself and half of what is behind.", half_there},
+    {"46c", "holes", "ten thousand holes", Layer::kPicture,
+        "Ten thousand layers with a hole change no pixel, or it is counted that the device gave "
+        "up.",
+        many_holes},
 };
 
 constexpr Guard kHolesGuards[] = {
     {"holes_are_not_drawn", "46"},
+    {"loops_that_ran_out", "46c", "lib/loops.glsl", "return rounds < 4;", "return false;"},
     {"a_number_a_layer", "46b", "geometry/coverage.glsl",
         "const uvec4 primitive = uvec4(hit.slot, instance, passed > 0.0 ? 1u : 0u, 0u);",
         "const uvec4 primitive = uvec4(0u);"},

@@ -122,18 +122,26 @@ Scene balls_in_balls(std::uint32_t count)
     return scene;
 }
 
-/// Whatever finds no place among what a path is inside of, no light is lost.
+/// Whatever finds no place among what a path is inside of is counted, and no light is lost.
 void more_insides_than_places(Findings& findings, Length /*length*/)
 {
     for (const std::uint32_t count : {4U, 7U})
-        for (const bool inside : {false, true}) {
+        for (const bool within : {false, true}) {
             Scene scene = balls_in_balls(count);
-            if (inside)
+            if (within)
                 scene.camera = {{0.05, 0, 0.1}, {0, 0, -3}, {0, 1, 0}, 60};
-            const Image image = rendered(scene, averaged(16, true, 64));
-            findings.at_most(std::to_string(count) + " balls, seen from "
-                    + (inside ? "within" : "outside") + ": mean off the sky's 1",
-                std::abs(mean_of(image).mean - 1), 2e-3);
+            const Drawn all = drawn(scene, averaged(16, true, 64));
+            const std::string name =
+                std::to_string(count) + " balls, seen from " + (within ? "within: " : "outside: ");
+            findings.at_most(
+                name + "mean off the sky's 1", std::abs(mean_of(all.image).mean - 1), 2e-3);
+            const auto clamped = static_cast<double>(all.counted.of(BadKind::kClamped));
+            findings.none(
+                name + "values that are none", static_cast<double>(all.counted.all()) - clamped);
+            if (count > 4 && !within)
+                findings.at_least(name + "pixels counted", clamped, 100);
+            if (count <= 4)
+                findings.none(name + "pixels counted", clamped);
         }
 }
 
@@ -143,14 +151,17 @@ constexpr Case kInsidesCases[] = {
         "entered last.",
         ranks_of_insides},
     {"34d", "insides", "more insides than places", Layer::kPicture,
-        "Seven lossless balls in each other cannot be seen under a white sky, though a path keeps "
-        "four.",
+        "Seven lossless balls in each other cannot be seen under a white sky; a path keeps four, "
+        "and "
+        "that is counted.",
         more_insides_than_places},
 };
 
 constexpr Guard kInsidesGuards[] = {
     {"entered_last_prevails", "34c", "bsdf/interior.glsl", "inside.priority >= best.priority",
         "inside.priority > best.priority"},
+    {"crowded_paths_are_counted", "34d", "path_trace/path_trace.comp",
+        "note(STAGE_HIT, crowded ? IS_CLAMPED : 0u);", ""},
 };
 
 }  // namespace

@@ -51,18 +51,29 @@ Rendering averaged(int samples, bool light_sampling, int max_depth)
     return how;
 }
 
-Image rendered(const DeviceScene& scene, const Rendering& how)
+Drawn drawn(const DeviceScene& scene, const Rendering& how)
 {
     View view(scene.shared);
-    RenderedFrame frame;
-    std::uint32_t nonfinite = 0;
+    Drawn all;
     for (int i = 0; i < how.frames; ++i) {
-        frame = view.render(linear_request(scene.scene, how.extent, how.settings));
-        nonfinite += frame.bad_values.all();
+        RenderedFrame frame = view.render(linear_request(scene.scene, how.extent, how.settings));
+        all.counted.add(frame.bad_values);
+        all.image = std::move(frame.image);
     }
-    if (nonfinite > 0)
-        std::fill(frame.image.bytes.begin(), frame.image.bytes.end(), std::byte{0xff});
-    return std::move(frame.image);
+    return all;
+}
+
+Drawn drawn(const Scene& scene, const Rendering& how)
+{
+    return drawn(DeviceScene(scene), how);
+}
+
+Image rendered(const DeviceScene& scene, const Rendering& how)
+{
+    Drawn all = drawn(scene, how);
+    if (all.counted.all() > 0)
+        std::fill(all.image.bytes.begin(), all.image.bytes.end(), std::byte{0xff});
+    return std::move(all.image);
 }
 
 Image rendered(const Scene& scene, const Rendering& how)

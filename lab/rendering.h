@@ -18,6 +18,14 @@ struct Rendering {
 /// Four frames of `samples` a pixel, averaged; no path ends by chance.
 Rendering averaged(int samples, bool light_sampling, int max_depth);
 
+/// The last of its frames, and what was counted in all of them.
+struct Drawn {
+    Image image;
+    BadValues counted;
+};
+Drawn drawn(const DeviceScene& scene, const Rendering& how);
+Drawn drawn(const Scene& scene, const Rendering& how);
+
 /// The last of its frames; NaN everywhere when a frame counted something that is not finite.
 Image rendered(const DeviceScene& scene, const Rendering& how);
 Image rendered(const Scene& scene, const Rendering& how);

@@ -39,8 +39,10 @@ struct CountedStage {
 /// In the order of a frame.
 constexpr std::array<CountedStage, STAGE_COUNT> kCountedStages{{
     {STAGE_PRIMARY_RAY, "primary_ray", "origin and direction of the ray through a pixel"},
-    {STAGE_GBUFFER, "gbuffer", "what that ray meets: place, depth, motion, albedo, emission"},
-    {STAGE_HIT, "hit", "what a path's rays meet: way and normal"},
+    {STAGE_GBUFFER, "gbuffer",
+        "what that ray meets: place, depth, motion, albedo, emission; loops that the device ended"},
+    {STAGE_HIT, "hit",
+        "what a path's rays meet: way and normal; loops that the device ended, a fifth inside"},
     {STAGE_LIGHT, "light", "a sampled light, and what the surface makes of it"},
     {STAGE_THROUGHPUT, "throughput", "what is left of a path's light after a bounce"},
     {STAGE_FOG, "fog", "weights of events in fog, and the light that fog scatters"},

@@ -16,6 +16,7 @@
 #include "lib/primary_ray.glsl"
 #include "geometry/hit_texel.glsl"
 #include "gbuffer/first_surface.glsl"
+#include "lib/loops.glsl"
 #include "lib/unknown.glsl"
 #ifdef FX_SPECULAR_SIGNAL
 #include "gbuffer/reflectance.glsl"
@@ -82,6 +83,7 @@ void main()
     note(STAGE_PRIMARY_RAY, nonfinite_in(dot(ray.origin + ray.direction, vec3(1.0))));
     note_cause(STAGE_GBUFFER, nonfinite_in(met ? dot(depth + s.position, vec3(1.0)) : 0.0));
     note_cause(STAGE_GBUFFER, kinds_in(albedo, emission));
+    note(STAGE_GBUFFER, loops_ran_out() ? IS_CLAMPED : 0u);
 #ifdef FX_SPECULAR_SIGNAL
     const vec4 specular = met ? reflectance(m, -ray.direction) : vec4(0.0, 0.0, 0.0, -1.0);
     note_cause(STAGE_GBUFFER, kinds_in(specular.rgb));

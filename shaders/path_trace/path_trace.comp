@@ -21,6 +21,7 @@
 #include "lib/primary_ray.glsl"
 #include "geometry/hit_texel.glsl"
 #include "path_trace/direct.glsl"
+#include "lib/loops.glsl"
 #include "lib/unknown.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -78,6 +79,9 @@ Gathered nothing_gathered()
 #endif
     return g;
 }
+
+// Whether a path was inside of more than it can keep.
+bool crowded = false;
 
 // Of what a ray brought back: the way, the normal, and where nothing was met the ray itself.
 uint kinds_of_hit(Ray ray, Surface s, bool met, float way)
@@ -154,6 +158,7 @@ Gathered trace_path(Vertex v, uvec2 px, uint sample_index, uint first_bounce, ve
                 random4(px, frame.seed, sample_index, bounce_index, SLOT_TEXTURE).xyz));
 #ifdef FX_DIELECTRIC
         const Interior inside = inside_after(v, bounce.transmitted);
+        crowded = crowded || (alive && inside.overflows > 0u);
         const vec3 absorption = current_absorption(inside);
         if (max_component(absorption) > 0.0)
             throughput *= exp(-absorption * (met ? way : T_INFINITY));
@@ -289,6 +294,7 @@ void main()
 #endif
         ++i;
     }
+    note(STAGE_HIT, loops_ran_out() ? IS_CLAMPED : 0u);
     const float weight = 1.0 / float(samples_per_pixel);
     const vec3 direct = sum.direct * weight;
     const vec3 indirect = sum.indirect * weight;
@@ -317,5 +323,7 @@ void main()
 #ifdef FX_FOG
     imageStore(out_scattered, px, MEAN_WITH(in_scattered, vec4(light_if_known(scattered), 0.0)));
 #endif
+    // The light stands: what found no place among a path's insides is taken for not there.
+    note(STAGE_HIT, crowded ? IS_CLAMPED : 0u);
     tell_noted(px, STAGE_HIT);
 }
