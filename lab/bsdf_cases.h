@@ -3,7 +3,6 @@
 
 #include "server/scene/scene.h"
 
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -19,16 +18,12 @@ struct BsdfCase {
     glm::vec2 coat_tilt{0};
     bool lossless = true;
     double tolerance = 1e-3;  ///< Of the albedo: interpolation in the tables.
-
-    friend void PrintTo(const BsdfCase& c, std::ostream* out) { *out << c.name; }
 };
 
 /// Cases of one kind, checked in one process: programs and tables are made once.
 struct BsdfFamily {
     const char* name;
     std::vector<BsdfCase> cases;
-
-    friend void PrintTo(const BsdfFamily& f, std::ostream* out) { *out << f.name; }
 };
 
 std::vector<BsdfFamily> bsdf_families();

@@ -60,6 +60,7 @@ void walk(double& wrong, double& off, const std::vector<Material>& materials,
     const std::vector<Step>& steps)
 {
     std::vector<glm::uvec4> met;
+    met.reserve(steps.size());
     for (const Step& step : steps)
         met.emplace_back(step.material, step.front ? 1 : 0, 0, 0);
     const std::vector<Image8> no_images;

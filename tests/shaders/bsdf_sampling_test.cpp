@@ -12,6 +12,13 @@
 #include <cstring>
 
 namespace farlight {
+
+void PrintTo(const BsdfFamily& family, std::ostream* out);
+void PrintTo(const BsdfFamily& family, std::ostream* out)
+{
+    *out << family.name;
+}
+
 namespace {
 
 using Vec3 = glm::dvec3;
