@@ -96,10 +96,11 @@ struct Looks {
     }
 };
 
-RenderedFrame last_frame(const DeviceScene& scene, DebugView shown)
+RenderedFrame last_frame(const DeviceScene& scene, const CameraPose& camera, DebugView shown)
 {
     View view(scene.shared);
     RenderRequest request = linear_request(scene.scene, kFarExtent, {});
+    request.camera = camera;
     request.settings.view = shown;
     RenderedFrame frame;
     BadValues met;
@@ -113,12 +114,12 @@ RenderedFrame last_frame(const DeviceScene& scene, DebugView shown)
     return frame;
 }
 
-Looks looks_of(const Scene& source)
+Looks looks_of(const Scene& source, const CameraPose& camera)
 {
     const DeviceScene scene(load_onto_device(source));
     Looks looks;
     for (std::size_t i = 0; i < looks.values.size(); ++i) {
-        const RenderedFrame frame = last_frame(scene, kLookedAt[i]);
+        const RenderedFrame frame = last_frame(scene, camera, kLookedAt[i]);
         looks.values.at(i) = values_of(frame.image);
         looks.nonfinite += frame.bad_values.all();
     }
@@ -151,14 +152,15 @@ double positions_off(const Looks& looks, const Looks& before, const glm::dvec3& 
 void far_is_as_near(Findings& findings, Length length)
 {
     const Scene scene = everything();
-    const Looks near = looks_of(scene);
+    const Looks near = looks_of(scene, scene.camera);
     findings.none("non-finite values about the origin", near.nonfinite);
     // Of the grid that origins lie on.
     std::vector<glm::dvec3> places{{0x1p20, -0x1p17, 0x1p18}};
     if (length == Length::kLong)
         places.insert(places.end(), {{-0x1p17, 0, 0}, {0x1p24, 0x1p24, -0x1p22}, {0, 0x1p30, 0}});
     for (const glm::dvec3& place : places) {
-        const Looks far = looks_of(moved(scene, place));
+        const Scene there = moved(scene, place);
+        const Looks far = looks_of(there, there.camera);
         const std::string name = std::to_string(std::lround(glm::length(place))) + " away: ";
         findings.none(name + "non-finite values", far.nonfinite);
         for (std::size_t i = 0; i < far.values.size(); ++i)
@@ -192,19 +194,19 @@ struct TileSamples {
 
 constexpr int kSeeds = 12;
 
-TileSamples sampled_tiles(const Scene& source, std::uint32_t first_seed)
+TileSamples sampled_tiles(const Scene& source, const CameraPose& camera, std::uint32_t first_seed)
 {
     const DeviceScene scene(load_onto_device(source));
     RenderSettings settings;
     settings.denoiser = Denoiser::kOff;
-    settings.samples_per_pixel = 4;
     TileSamples samples;
     std::vector<double> m2;
     for (int n = 1; n <= kSeeds; ++n) {
         settings.seed = first_seed + static_cast<std::uint32_t>(n);
         View view(scene.shared);
-        const std::vector<double> tiles =
-            tile_means(view.render(linear_request(scene.scene, kFarExtent, settings)).image);
+        RenderRequest request = linear_request(scene.scene, kFarExtent, settings);
+        request.camera = camera;
+        const std::vector<double> tiles = tile_means(view.render(request).image);
         samples.mean.resize(tiles.size());
         m2.resize(tiles.size());
         for (std::size_t i = 0; i < tiles.size(); ++i) {
@@ -270,28 +272,72 @@ SurfaceDifference difference(const Looks& a, const Looks& b)
     return sum;
 }
 
+/// A scene seen at some place against what is to be seen there.
+class Expected {
+public:
+    explicit Expected(const Scene& scene)
+        : looks_(looks_of(scene, scene.camera))
+        , tiles_(sampled_tiles(scene, scene.camera, 0))
+    {
+    }
+
+    void report(Findings& findings, const std::string& name, const Scene& scene,
+        const CameraPose& camera) const
+    {
+        const SurfaceDifference off = difference(looks_of(scene, camera), looks_);
+        findings.at_most(name + "share of pixels that show something else", off.elsewhere, 0.002);
+        findings.at_most(name + "depth off, relative", off.depth, 1e-5);
+        findings.at_most(name + "motion vectors off [px]", off.motion, 1e-3);
+        findings.at_most(name + "share of histories of another length", off.lengths, 0.002);
+        const TileSamples tiles = sampled_tiles(scene, camera, 1000);
+        findings.at_most(name + "tiles apart [standard errors]", tiles_apart(tiles, tiles_),
+            bound_of_tiles(tiles.mean.size()));
+    }
+
+private:
+    Looks looks_;
+    TileSamples tiles_;
+};
+
+std::string distance_named(double distance)
+{
+    char name[40];
+    std::snprintf(name, sizeof name, "%g away: ", distance);
+    return name;
+}
+
 void moved_anywhere(Findings& findings, Length length)
 {
     const Scene scene = everything();
-    const Looks near = looks_of(scene);
-    const TileSamples near_tiles = sampled_tiles(scene, 0);
+    const Expected near(scene);
     std::vector<double> distances{1e6};
     if (length == Length::kLong)
         distances = {10, 1e3, 1e5, 1e6, 1e7, 1e9};
     for (const double distance : distances) {
         const Scene there = moved(scene, distance * glm::dvec3(0.7, -0.3, 0.648074));
-        char name[40];
-        std::snprintf(name, sizeof name, "%g away: ", distance);
-        const SurfaceDifference off = difference(looks_of(there), near);
-        findings.at_most(
-            std::string(name) + "share of pixels that show something else", off.elsewhere, 0.002);
-        findings.at_most(std::string(name) + "depth off, relative", off.depth, 1e-5);
-        findings.at_most(std::string(name) + "motion vectors off [px]", off.motion, 1e-3);
-        findings.at_most(
-            std::string(name) + "share of histories of another length", off.lengths, 0.002);
-        const TileSamples tiles = sampled_tiles(there, 1000);
-        findings.at_most(std::string(name) + "tiles apart [standard errors]",
-            tiles_apart(tiles, near_tiles), bound_of_tiles(tiles.mean.size()));
+        near.report(findings, distance_named(distance), there, there.camera);
+    }
+}
+
+/// The camera flies past a line of the grid that origins of wide scenes lie on.
+void a_camera_in_a_wide_scene(Findings& findings, Length length)
+{
+    Scene scene = everything();
+    std::vector<double> powers{20};
+    if (length != Length::kLong)
+        scene.medium = {};  // three times the work
+    const Expected near(scene);
+    if (length == Length::kLong)
+        powers = {17, 20, 24, 30};
+    for (const double power : powers) {
+        const double step = std::exp2(power - 10);
+        const double distance = 976.5 * step - 0.078125;
+        Scene wide = moved(scene, {distance, 0, 0});
+        const CameraPose camera = wide.camera;
+        // The scene's own camera looks at its other end.
+        wide.objects.push_back({"other end", 0, Sphere{{-distance, 0, 0}, 1}});
+        wide.camera = {{-distance, 0, 4}, {-distance, 0, 0}, {0, 1, 0}, 45};
+        near.report(findings, distance_named(2 * distance), wide, camera);
     }
 }
 
@@ -300,6 +346,10 @@ constexpr Case kOriginCases[] = {
         "A scene with everything that has a position, moved by a million, gives the same bits: "
         "pictures, depths, motion, histories.",
         far_is_as_near},
+    {"22b", "origin", "a camera in a wide scene", Layer::kSequence,
+        "A camera two million away from where the scene's own camera stands sees what is there as "
+        "if there were nothing else.",
+        a_camera_in_a_wide_scene},
     {"M2", "origin", "moved anywhere", Layer::kSequence,
         "Moved by any vector a scene is the same within rounding, and its picture by tiles.",
         moved_anywhere},
@@ -307,6 +357,7 @@ constexpr Case kOriginCases[] = {
 
 constexpr Guard kOriginGuards[] = {
     {"counts_from_near", "22 M2"},
+    {"follows_the_camera", "22b"},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "server/passes/error_estimate.h"
 #include "server/render/camera.h"
 #include "server/render/frame.h"
+#include "server/scene/scene_origin.h"
 
 #include <algorithm>
 #include <chrono>
@@ -102,12 +103,22 @@ void View::follow(const RenderRequest& request)
     filter_ = std::move(filter);
 }
 
+/// The scene's own, but for a wide one.
+glm::dvec3 View::origin_of_frame(const CameraPose& camera) const
+{
+    if (scene_.gpu == nullptr || !scene_.gpu->wide())
+        return glm::dvec3(0);
+    return origin_near(
+        camera.position - scene_.look.origin, static_cast<double>(scene_.look.radius));
+}
+
 /// The scene as it is in this frame and was in the last; the milliseconds that took, 0 where
 /// nothing has moved.
 double View::pose(double time)
 {
     const auto begun = std::chrono::steady_clock::now();
-    const bool posed = moves() && scene_.gpu->pose(time, has_history_ ? prev_time_ : time);
+    const bool posed =
+        scene_.gpu != nullptr && scene_.gpu->pose(time, has_history_ ? prev_time_ : time, origin_);
     if (moved_since_last_frame)
         prev_time_ = time;
     return posed
@@ -119,7 +130,7 @@ double View::pose(double time)
 void View::upload_constants(const RenderRequest& request)
 {
     shared::FrameConstants constants{};
-    const glm::dvec3& origin = scene_.look.origin;
+    const glm::dvec3 origin = scene_.look.origin + origin_;
     constants.camera = camera_constants(request.camera, key_.extent, origin);
     // From its pose: another scene, with another origin, may have taken the place of the last.
     constants.prev_camera =
@@ -152,6 +163,7 @@ FrameInputs View::inputs_of(const RenderRequest& request) const
     const double target = glm::length(request.camera.target - request.camera.position);
     const double focus = lens.focus_distance > 0 ? lens.focus_distance : target;
     inputs.holes = scene_.look.holes;
+    inputs.fog.center = glm::vec3(glm::dvec3(scene_.look.fog.center) - origin_);
     inputs.lens_radius = static_cast<float>(lens.radius);
     inputs.focus_distance = focus > 0 ? static_cast<float>(focus) : 1.0F;
     if (request.settings.antialiasing && counts_.mean() > 0)
@@ -190,7 +202,7 @@ FramePlan View::plan_of(const RenderRequest& request)
     plan.frame_index = counts_.frame_index();
     plan.refine = request.refine;
     plan.scene_radius = scene_.look.radius;
-    plan.origin = scene_.look.origin;
+    plan.origin = scene_.look.origin + origin_;
     plan.scatters = scene_.look.scatters;
     plan.linear_output = request.format == PixelFormat::kRgb32f;
     const bool specular = scene_.scene_programs.scene_mask().has("specular_signal");
@@ -232,6 +244,7 @@ std::vector<glm::vec4> View::tile_sums(TileSums part) const
 void View::begin(const RenderRequest& request)
 {
     follow(request);
+    origin_ = origin_of_frame(request.camera);
     const double pose_ms = pose(moment_shown(request.time));
     upload_constants(request);
     if (!has_history_)

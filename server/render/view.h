@@ -79,6 +79,7 @@ private:
     /// What of `time` can be seen [s].
     double moment_shown(double time) const { return moves() ? scene_.gpu->moment_shown(time) : 0; }
     void follow(const RenderRequest& request);
+    glm::dvec3 origin_of_frame(const CameraPose& camera) const;
     double pose(double time);
     void upload_constants(const RenderRequest& request);
     FrameInputs inputs_of(const RenderRequest& request) const;
@@ -101,6 +102,7 @@ private:
     std::vector<double> filter_;  ///< What the denoised picture depends on: see filter_key().
     bool new_filter_ = false;  ///< It changed with this frame.
     Extent full_extent_;  ///< Of the last frame.
+    glm::dvec3 origin_{0};  ///< From where this frame counts positions, in the scene's coordinates.
     CameraPose prev_camera_;
     Extent prev_extent_;  ///< Drawn in the last frame.
     double prev_time_ = 0;

@@ -158,7 +158,7 @@ VertexPose pose_vertices(const Mesh& mesh, std::span<const float> weights,
 }
 
 VertexPose pose_object(const Scene& scene, std::uint32_t object, double time,
-    std::span<const glm::dmat4> world_from_node)
+    std::span<const glm::dmat4> world_from_node, const glm::dvec3& origin)
 {
     const auto& instance = std::get<MeshInstance>(scene.objects[object].shape);
     std::vector<glm::mat4> joints;
@@ -166,8 +166,11 @@ VertexPose pose_object(const Scene& scene, std::uint32_t object, double time,
         joints = skin_matrices(scene.animation.skins[instance.skin], world_from_node);
     const std::vector<float> weights =
         morph_weights_at(scene.animation, object, instance.morph_weights, time);
-    return pose_vertices(scene.meshes[instance.mesh], weights, joints,
-        carried(scene.objects[object].node, world_from_node, instance.world_from_object));
+    const std::uint32_t node = scene.objects[object].node;
+    glm::dmat4 world_from_mesh = carried(node, world_from_node, instance.world_from_object);
+    if (node == kNone)
+        world_from_mesh[3] -= glm::dvec4(origin, 0);
+    return pose_vertices(scene.meshes[instance.mesh], weights, joints, world_from_mesh);
 }
 
 }  // namespace farlight

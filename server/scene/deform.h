@@ -36,8 +36,9 @@ VertexPose pose_vertices(const Mesh& mesh, std::span<const float> weights,
     std::span<const glm::mat4> joints, const glm::dmat4& world_from_mesh);
 
 /// The object's vertices in world space at `time`, whether it moves or not. It must have a mesh.
+/// `origin`: of the space that `world_from_node` leads to, in the scene's coordinates.
 VertexPose pose_object(const Scene& scene, std::uint32_t object, double time,
-    std::span<const glm::dmat4> world_from_node);
+    std::span<const glm::dmat4> world_from_node, const glm::dvec3& origin = glm::dvec3(0));
 
 /// world_from_object of a shape carried by `node`.
 inline glm::dmat4 carried(

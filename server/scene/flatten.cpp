@@ -5,9 +5,12 @@
 #include "server/scene/deform.h"
 #include "server/scene/instance_transform.h"
 #include "server/scene/material_response.h"
+#include "server/scene/scene_origin.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <utility>
 
@@ -28,13 +31,27 @@ glm::vec3 transformed_point(const glm::dmat4& m, const glm::dvec3& p)
     return glm::vec3(m * glm::dvec4(p, 1));
 }
 
+/// Whether rays can be taken into the space of everything at rest. What a transform has squeezed
+/// flat is seen, but only where its triangles are in the world.
+bool can_be_instances(const Scene& scene)
+{
+    const std::vector<bool> moving = moving_nodes(scene.animation);
+    const std::vector<glm::dmat4> world_from_node = pose_nodes(scene.animation, 0);
+    return std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+        return (object.node != kNone && moving[object.node]) || has_pose(scene, object)
+            || is_invertible(carried(object.node, world_from_node, placement_of(object)));
+    });
+}
+
 class Flattener {
 public:
     explicit Flattener(const Scene& scene)
         : scene_(scene)
-        , placements_(placements_of(scene))
+        , wide_(is_wide(scene) && can_be_instances(scene))
+        , placements_(placements_of(scene, wide_))
         , world_from_node_(pose_nodes(scene.animation, 0))
     {
+        flat_.wide = wide_;
         flat_.groups.resize(1);
         flat_.objects.resize(scene.objects.size());
     }
@@ -86,16 +103,16 @@ private:
             if (mesh != nullptr)
                 group_of_mesh_[mesh->mesh] = group_;
             next_light_ = 1;
-            add_shape(glm::dmat4(1));
+            add_shape(mesh != nullptr ? glm::dmat4(1) : glm::inverse(placement_of(object())));
         } else {
             group_ = known->second;
             flat_.objects[object_].mesh = &scene_.meshes[mesh->mesh];
         }
         if (group().size() == 0)
             return;
-        const glm::dmat4 local = mesh == nullptr ? glm::dmat4(1) : mesh->world_from_object;
-        const std::uint32_t light =
-            is_sampled(scene_, object()) ? add_instance_lights(world_from_carrier() * local) : 0;
+        const std::uint32_t light = is_sampled(scene_, object())
+            ? add_instance_lights(world_from_carrier() * placement_of(object()))
+            : 0;
         flat_.instances.push_back({static_cast<std::uint32_t>(group_), object_, light});
     }
 
@@ -114,13 +131,14 @@ private:
 
     std::vector<Light> lights_of_group()
     {
+        const glm::dvec3 anchor(placement_of(object())[3]);
         if (const auto* quad = std::get_if<Quad>(&object().shape))
-            return {light_of_quad(
-                glm::vec3(quad->corner), glm::vec3(quad->edge_u), glm::vec3(quad->edge_v))};
+            return {light_of_quad(glm::vec3(quad->corner - anchor), glm::vec3(quad->edge_u),
+                glm::vec3(quad->edge_v))};
         if (const auto* sphere = std::get_if<Sphere>(&object().shape))
-            return {light_of(*sphere)};
+            return {light_of(Sphere{sphere->center - anchor, sphere->radius})};
         if (const auto* disk = std::get_if<Disk>(&object().shape))
-            return {light_of(*disk)};
+            return {light_of(Disk{disk->center - anchor, disk->normal, disk->radius})};
         std::vector<Light> lights;
         for (const FlatTriangle& triangle : group().triangles) {
             const auto& [a, b, c] = triangle.vertices;
@@ -249,6 +267,7 @@ private:
     FlatGroup& group() { return flat_.groups[group_]; }
 
     const Scene& scene_;
+    bool wide_;
     std::vector<Placement> placements_;
     std::vector<glm::dmat4> world_from_node_;
     std::map<std::uint32_t, std::size_t> group_of_mesh_;
@@ -261,7 +280,21 @@ private:
 
 }  // namespace
 
-std::vector<Placement> placements_of(const Scene& scene)
+glm::dmat4 placement_of(const Object& object)
+{
+    if (const auto* mesh = std::get_if<MeshInstance>(&object.shape))
+        return mesh->world_from_object;
+    if (object.node != kNone)
+        return glm::dmat4(1);
+    const auto* sphere = std::get_if<Sphere>(&object.shape);
+    const auto* disk = std::get_if<Disk>(&object.shape);
+    return glm::translate(glm::dmat4(1),
+        sphere != nullptr     ? sphere->center
+            : disk != nullptr ? disk->center
+                              : std::get<Quad>(object.shape).corner);
+}
+
+std::vector<Placement> placements_of(const Scene& scene, bool wide)
 {
     const std::vector<bool> moving = moving_nodes(scene.animation);
     const std::vector<glm::dmat4> world_from_node = pose_nodes(scene.animation, 0);
@@ -275,10 +308,11 @@ std::vector<Placement> placements_of(const Scene& scene)
             || std::holds_alternative<Disk>(object.shape);
         const bool squeezed = round && object.node != kNone
             && !is_similarity(glm::dmat3(world_from_node[object.node]));
-        if (changes_shape(scene, i, moving) || (moves && has_pose(scene, object)))
+        if (changes_shape(scene, i, moving) || ((moves || wide) && has_pose(scene, object)))
             placements.push_back(Placement::kDeforming);
         else
-            placements.push_back(moves || squeezed ? Placement::kInstance : Placement::kWorld);
+            placements.push_back(
+                moves || squeezed || wide ? Placement::kInstance : Placement::kWorld);
         if (placements.back() == Placement::kWorld && !has_pose(scene, object))
             ++shown[mesh_of(scene, object)];
     }

@@ -24,8 +24,13 @@ enum class Placement : std::uint8_t {
 /// tree) and costs about 100 bytes a triangle with its share of the tree: up to here 25 MB.
 constexpr std::size_t kSharedTriangles = 250'000;
 
-/// One an object.
-std::vector<Placement> placements_of(const Scene& scene);
+/// One an object. `wide`: is_wide(); then nothing lies in the world's own tree, whose coordinates
+/// are counted from one point.
+std::vector<Placement> placements_of(const Scene& scene, bool wide = false);
+
+/// What places the group of an instance before a node carries it: a mesh's transform; under a node
+/// nothing else; a shape that rests is counted from its own center or corner, and placed there.
+glm::dmat4 placement_of(const Object& object);
 
 /// A triangle before a tree has put it in order. What else its corners carry stays in the mesh.
 struct FlatTriangle {
@@ -83,6 +88,7 @@ struct FlatObject {
 };
 
 struct FlatScene {
+    bool wide = false;  ///< See scene_origin.h; false where something at rest is squeezed flat.
     std::vector<FlatGroup> groups;  ///< The world's, the instances', the deforming objects'.
     std::uint32_t first_deforming = 0;  ///< Group of deforming_objects[0]; the others follow.
     std::vector<FlatInstance> instances;

@@ -49,11 +49,12 @@ GpuScene::GpuScene(const Scene& scene, const DeviceLimits& limits) : scene_(scen
         update_lights();
 }
 
-bool GpuScene::pose(double time, double prev_time)
+bool GpuScene::pose(double time, double prev_time, const glm::dvec3& origin)
 {
-    if (scene_.animation.empty())
+    if (!moves() && !wide())
         return false;
-    const MovingScene::Changes changes = moving_->pose(time, prev_time);
+    origin_ = wide() ? origin : glm::dvec3(0);
+    const MovingScene::Changes changes = moving_->pose(time, prev_time, origin_);
     time_ = time;
     if (changes.now)
         update_now();
@@ -87,8 +88,8 @@ void GpuScene::update_lights()
         factors_at(animation, Track::Target::kLightIntensity, scene_.lights.size(), time_);
     background_factor_ =
         static_cast<float>(factor_at(animation, Track::Target::kBackground, 0, time_));
-    lights_->update(
-        moving_->lights(), {emission, intensity, moving_->world_from_node(), background_factor_});
+    lights_->update(moving_->lights(),
+        {emission, intensity, moving_->world_from_node(), background_factor_, origin_});
     update("lights", lights_->lights());
     update("light_tree", lights_->tree());
     if (emission.empty())

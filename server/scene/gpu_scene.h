@@ -28,8 +28,11 @@ public:
     explicit GpuScene(const Scene& scene, const DeviceLimits& limits = device_limits());
 
     /// Brings what moves to `time` and its past to `prev_time` [s]; costs nothing when neither has
-    /// changed: false. Frames that are drawn after it see it, frames before it do not.
-    bool pose(double time, double prev_time);
+    /// changed: false. Frames that are drawn after it see it, frames before it do not. A wide scene
+    /// is counted from `origin`, others ignore it.
+    bool pose(double time, double prev_time, const glm::dvec3& origin = glm::dvec3(0));
+    /// Whether it is counted from near each frame's camera (scene_origin.h).
+    bool wide() const { return moving_->wide(); }
     /// Whether anything depends on time.
     bool moves() const { return !scene_.animation.empty(); }
     double moment_shown(double time) const
@@ -70,6 +73,7 @@ private:
     std::optional<LightTable> lights_;
     Texels materials_;  ///< Without the factors of tracks.
     double time_ = 0;
+    glm::dvec3 origin_{0};
     float background_factor_ = 1;
     std::vector<Buffer> buffers_;
     std::map<std::string, std::size_t, std::less<>> buffer_of_;  ///< Index into buffers_.

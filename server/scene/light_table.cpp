@@ -7,6 +7,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace farlight {
 namespace {
@@ -87,12 +88,13 @@ void LightTable::pose_area_lights(std::span<const Light> shapes, const LightPose
 
 void LightTable::pose_punctual_lights(const LightPose& pose)
 {
+    const glm::dmat4 world_from_scene = glm::translate(glm::dmat4(1), -pose.origin);
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
         Light& light = lights_[area_lights_ + i];
         const std::uint32_t node = scene_.lights[i].node;
-        light = node != kNone && !pose.world_from_node.empty()
-            ? light_of(scene_.lights[i], pose.world_from_node[node])
-            : rest_[area_lights_ + i];
+        light = light_of(scene_.lights[i],
+            node != kNone && !pose.world_from_node.empty() ? pose.world_from_node[node]
+                                                           : world_from_scene);
         scale(light, light, factor(pose.intensity, i));
     }
 }

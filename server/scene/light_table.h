@@ -17,6 +17,7 @@ struct LightPose {
     std::span<const float> intensity;  ///< Factor on that of each of Scene::lights.
     std::span<const glm::dmat4> world_from_node;  ///< Of each node.
     float background = 1;  ///< Factor on Scene::background.
+    glm::dvec3 origin{0};  ///< Of the space they are wanted in, in the scene's coordinates.
 };
 
 /// Lights keep their index for ever: first the area lights as they were given, then Scene::lights,

@@ -37,9 +37,10 @@ MovingScene::MovingScene(const Scene& scene, const FlatScene& flat,
     , meshes_(std::move(meshes))
     , deforming_(std::move(deforming))
     , stack_depth_(trees[0].stack_depth)
+    , wide_(flat.wide)
 {
     if (flat.instances.empty() && meshes_.empty()) {
-        now_ = prev_ = moment(0);
+        now_ = prev_ = moment(0, glm::dvec3(0));
         return;
     }
     int deepest = 0;
@@ -70,30 +71,37 @@ MovingScene::MovingScene(const Scene& scene, const FlatScene& flat,
     pose(0, 0);
 }
 
-std::shared_ptr<const MovingScene::Moment> MovingScene::moment(double time) const
+std::shared_ptr<const MovingScene::Moment> MovingScene::moment(
+    double time, const glm::dvec3& origin) const
 {
+    const glm::dvec4 offset(origin, 0);
     auto m = std::make_shared<Moment>();
     m->time = time;
+    m->origin = origin;
     m->world_from_node = pose_nodes(scene_.animation, time);
+    for (glm::dmat4& world : m->world_from_node)
+        world[3] -= offset;
     for (const Instance& instance : instances_) {
         const Object& object = scene_.objects[instance.object];
-        const auto* mesh = std::get_if<MeshInstance>(&object.shape);
-        m->world_from_group.push_back(carried(object.node, m->world_from_node,
-            mesh == nullptr ? glm::dmat4(1) : mesh->world_from_object));
+        m->world_from_group.push_back(
+            carried(object.node, m->world_from_node, placement_of(object)));
+        if (object.node == kNone)
+            m->world_from_group.back()[3] -= offset;
     }
     for (const DeformingMesh& mesh : meshes_)
-        m->vertices.push_back(pose_object(scene_, mesh.object(), time, m->world_from_node));
+        m->vertices.push_back(pose_object(scene_, mesh.object(), time, m->world_from_node, origin));
     return m;
 }
 
-MovingScene::Changes MovingScene::pose(double time, double prev_time)
+MovingScene::Changes MovingScene::pose(double time, double prev_time, const glm::dvec3& origin)
 {
+    assert(wide_ || origin == glm::dvec3(0));
     // A frame's previous time is mostly the last frame's time.
     const auto known = [&](double wanted) {
         for (const auto& m : {now_, prev_})
-            if (m != nullptr && m->time == wanted)
+            if (m != nullptr && m->time == wanted && m->origin == origin)
                 return m;
-        return moment(wanted);
+        return moment(wanted, origin);
     };
     const auto now = known(time);
     const auto prev = prev_time == time ? now : known(prev_time);

@@ -24,8 +24,11 @@ public:
         bool now = false;  ///< What depends on the time.
         bool previous = false;  ///< What depends on the previous time.
     };
-    /// Brings everything to `time` and the prev_ tables to `prev_time` [s].
-    Changes pose(double time, double prev_time);
+    /// Brings everything to `time` and the prev_ tables to `prev_time` [s], counted from `origin`:
+    /// zero unless the scene is wide().
+    Changes pose(double time, double prev_time, const glm::dvec3& origin = glm::dvec3(0));
+    /// Nothing of it has a place of its own in the tables: see scene_origin.h.
+    bool wide() const { return wide_; }
 
     /// The first texels of bvh_nodes; empty where the world's own tree is all there is.
     const Texels& top_level() const { return top_level_; }
@@ -44,15 +47,16 @@ private:
         std::uint32_t root = 0;  ///< Texel in bvh_nodes.
         PrimitiveBounds bounds{};  ///< In the group's space.
     };
-    /// All that depends on time alone.
+    /// All that depends on time and origin alone.
     struct Moment {
         double time = 0;
+        glm::dvec3 origin{0};
         std::vector<glm::dmat4> world_from_node;
         std::vector<glm::dmat4> world_from_group;  ///< One an instance.
         std::vector<VertexPose> vertices;  ///< One a deforming mesh.
     };
 
-    std::shared_ptr<const Moment> moment(double time) const;
+    std::shared_ptr<const Moment> moment(double time, const glm::dvec3& origin) const;
     void pack_now();
     void pack_previous();
     void pack_instance(std::size_t i);
@@ -71,6 +75,7 @@ private:
     Texels instance_texels_;
     Texels prev_instance_texels_;
     int stack_depth_ = 0;
+    bool wide_ = false;
 };
 
 }  // namespace farlight

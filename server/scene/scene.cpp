@@ -69,22 +69,30 @@ void extend_by_posed(Bounds& bounds, const glm::vec3& p)
 
 }  // namespace
 
-Bounds scene_bounds(const Scene& scene)
+std::vector<Bounds> object_bounds(const Scene& scene)
 {
     const Rest rest{scene};
-    Bounds bounds;
+    std::vector<Bounds> all(scene.objects.size());
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        if (!object.framed)
-            continue;
         if (has_pose(scene, object)) {
             for (const glm::vec3& p : pose_object(scene, i, 0, rest.world_from_node).positions)
-                extend_by_posed(bounds, p);
+                extend_by_posed(all[i], p);
             continue;
         }
         const glm::dmat4 world = carried(object.node, rest.world_from_node, glm::dmat4(1));
-        std::visit([&](const auto& shape) { extend(bounds, rest, shape, world); }, object.shape);
+        std::visit([&](const auto& shape) { extend(all[i], rest, shape, world); }, object.shape);
     }
+    return all;
+}
+
+Bounds scene_bounds(const Scene& scene)
+{
+    Bounds bounds;
+    const std::vector<Bounds> objects = object_bounds(scene);
+    for (std::size_t i = 0; i < objects.size(); ++i)
+        if (scene.objects[i].framed)
+            bounds.extend(objects[i]);
     return bounds;
 }
 

@@ -260,5 +260,7 @@ struct Scene {
 
 /// World-space bounds of all framed objects at time 0; empty() for an empty scene.
 Bounds scene_bounds(const Scene& scene);
+/// One an object, framed or not.
+std::vector<Bounds> object_bounds(const Scene& scene);
 
 }  // namespace farlight

@@ -11,10 +11,14 @@ namespace farlight {
 namespace {
 
 const HostGuard counts_from_near("counts_from_near");
+const HostGuard follows_the_camera("follows_the_camera");
 
 /// Within so many times the size of what is looked at, single precision tells 2^-18 of it apart,
 /// which is less than a pixel of any picture.
 constexpr double kNear = 32;
+
+/// From so many of its radii on, a thing that fills a picture of some hundred lines is off by one.
+constexpr double kWide = 65536;
 
 double largest(const glm::dvec3& v)
 {
@@ -54,6 +58,26 @@ glm::dvec3 origin_of(const Scene& scene)
         return glm::dvec3(0);
     const double step = std::ldexp(8.0, std::ilogb(size) + 1);
     return glm::round(looked_at / step) * step;
+}
+
+bool is_wide(const Scene& scene)
+{
+    const std::vector<Bounds> objects = object_bounds(scene);
+    bool lost = false;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const Bounds& b = objects[i];
+        const double reach = std::max(largest(b.lower), largest(b.upper));
+        lost = lost
+            || (scene.objects[i].framed && !b.empty() && std::isfinite(reach) && b.radius() > 0
+                && reach > kWide * b.radius());
+    }
+    return follows_the_camera && lost;
+}
+
+glm::dvec3 origin_near(const glm::dvec3& camera, double scene_radius)
+{
+    const double step = std::ldexp(1.0, std::ilogb(scene_radius) - 9);
+    return glm::round(camera / step) * step;
 }
 
 void count_from(Scene& scene, const glm::dvec3& origin)

@@ -13,6 +13,16 @@ namespace farlight {
 /// one moved by whole steps has its origin moved, and their coordinates stay the same to the bit.
 glm::dvec3 origin_of(const Scene& scene);
 
+/// Whether single precision loses something even so: a thing that is farther from what positions
+/// are counted from than 2^16 of its radii. Such a scene is counted from near the camera of each
+/// frame instead.
+bool is_wide(const Scene& scene);
+
+/// From where a frame of a wide scene is counted: the point next to its camera on a grid whose step
+/// is a power of two, about a thousandth of the scene's radius. A function of the camera alone, so
+/// that no picture depends on the ones before.
+glm::dvec3 origin_near(const glm::dvec3& camera, double scene_radius);
+
 /// Counts shapes, lights and nodes from `origin` (in the coordinates of before), and notes it in
 /// Scene::origin. Cameras stay as they are. In double precision.
 void count_from(Scene& scene, const glm::dvec3& origin);

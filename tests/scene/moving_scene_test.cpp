@@ -134,6 +134,27 @@ TEST(PlacementTest, AHeavyMeshShownOftenStaysShared)
     EXPECT_EQ(packed.content.instances, 3U);
 }
 
+TEST(PlacementTest, InAWideSceneNothingLiesInTheWorldsTree)
+{
+    Scene scene = scene_of_fans(1, 5);
+    scene.objects.push_back({"far", 0, Sphere{{1e7, 0, 0}, 1}});
+    scene.objects.push_back({"quad", 0, Quad{{1e7, 5, 0}, {1, 0, 0}, {0, 0, 1}}});
+    const FlatScene flat = flatten(scene);
+    EXPECT_TRUE(flat.wide);
+    EXPECT_EQ(flat.groups[0].size(), 0U);
+    ASSERT_EQ(flat.instances.size(), 3U);
+    EXPECT_EQ(flat.groups[flat.instances[1].group].spheres[0].center, glm::vec3(0));
+    EXPECT_EQ(flat.groups[flat.instances[2].group].triangles[0].vertices[1], glm::vec3(1, 0, 0));
+    PackedScene packed = pack_scene(scene);
+    packed.moving->pose(0, 0, {1e7 - 2, 0, 0});
+    const glm::uvec4& row =
+        packed.moving->instances()[INSTANCE_TEXELS + INSTANCE_WORLD_FROM_OBJECT];
+    EXPECT_EQ(glm::uintBitsToFloat(row.w), 2);
+    // What is squeezed flat has no space of its own, but is seen.
+    std::get<MeshInstance>(scene.objects[0].shape).world_from_object[2] = {0, 0, 0, 0};
+    EXPECT_FALSE(flatten(scene).wide);
+}
+
 TEST(MovingSceneTest, ARefittedTreeHoldsItsVerticesAtAnyTime)
 {
     Scene scene = scene_of_fans(1, 300);

@@ -63,6 +63,27 @@ TEST(SceneOriginTest, WhatHasNoBoundsHasNoOrigin)
     EXPECT_EQ(origin_of(scene), glm::dvec3(0));
 }
 
+TEST(SceneOriginTest, AThingFartherOffThanItIsLargeMakesASceneWide)
+{
+    EXPECT_FALSE(is_wide(Scene{}));
+    Scene scene = ball_at({0, 0, 0});
+    scene.objects.push_back({"speck", 0, Sphere{{0, 0, 0}, 1e-9}});
+    scene.objects.push_back({"ground", 0, Quad{{-1e6, 0, -1e6}, {2e6, 0, 0}, {0, 0, 2e6}}});
+    EXPECT_FALSE(is_wide(scene)) << "what is small is where numbers are fine";
+    scene.objects.push_back({"house", 0, Sphere{{0, 0, 9e5}, 5}});
+    EXPECT_TRUE(is_wide(scene));
+    scene.objects.back().framed = false;
+    EXPECT_FALSE(is_wide(scene));
+}
+
+TEST(SceneOriginTest, FramesOfWideScenesAreCountedFromAGridPointNearTheirCamera)
+{
+    EXPECT_EQ(origin_near({0, 0, 0}, 1e6), glm::dvec3(0));
+    EXPECT_EQ(origin_near({511, -513, 1e6}, 1e6), glm::dvec3(0, -1024, 1000448));
+    EXPECT_EQ(origin_near(0.25 * glm::dvec3(511, -513, 1e6), 0.25e6),
+        0.25 * origin_near({511, -513, 1e6}, 1e6));
+}
+
 TEST(SceneOriginTest, EverythingButCamerasIsCountedFromIt)
 {
     const glm::dvec3 origin(1e6, -2e6, 64);

@@ -1,5 +1,6 @@
 // The scenes in scenes/ are what their README says they are.
 #include "server/scene/scene_file.h"
+#include "server/scene/scene_origin.h"
 #include "tests/support/shipped_scenes.h"
 
 #include <fstream>
@@ -21,6 +22,7 @@ TEST_P(ShippedSceneTest, LoadsWithoutNotesAndHasARowInTheReadme)
     const Scene scene = load_scene(GetParam());
     EXPECT_THAT(scene.notes, testing::IsEmpty());
     EXPECT_FALSE(scene.name.empty());
+    EXPECT_FALSE(is_wide(scene)) << "drawn more slowly than it need be";
     for (const Object& object : scene.objects)
         EXPECT_THAT(object.name, testing::Not(testing::StartsWith("object ")));
 
