@@ -4,7 +4,7 @@
 import { element, fixed } from "./dom.js";
 import { ORIGINS, errorNumber, errorOf, frontierOf, interval, milliseconds, oneMore } from "./frontier.js";
 import { FrontierPlot } from "./frontier_plot.js";
-import { badValues } from "./protocol.js";
+import { badValues, wrongValues } from "./protocol.js";
 import { Goal } from "./goal.js";
 
 const REFRESH_MS = 250;     // more often, numbers cannot be read
@@ -56,7 +56,7 @@ function cellsOf(header, passes, roundTrip) {
         drawing: [`${fixed((header.trace_us + header.denoise_us) / 1000)} ms`, header.frame_us ? `of ${fixed(header.frame_us / 1000)} in all` : ""],
         encoding: [`${fixed(header.encode_us / 1000)} ms`, "to bytes"],
         network: [Number.isFinite(roundTrip) ? `${fixed(roundTrip)} ms` : "–", "there and back"],
-        faulty: [String(badValues(header)), badValues(header) ? "pixels: the picture is faulty" : "pixels"],
+        faulty: [String(badValues(header)), wrongValues(header) ? "pixels: the picture is faulty" : badValues(header) ? "pixels, cut at a limit" : "pixels"],
     };
 }
 
@@ -134,7 +134,7 @@ export class Accuracy {
     #refresh() {
         this.#drawnAt = performance.now();
         const error = this.#header && errorOf(this.#header);
-        const faulty = this.#header !== null && badValues(this.#header) > 0;
+        const faulty = this.#header !== null && wrongValues(this.#header) > 0;
         this.#nodes.word.textContent = faulty ? `${badValues(this.#header)} bad values`
             : error ? `${errorNumber(error.value)} ${error.measured ? "measured" : "predicted"}` : "";
         this.#nodes.word.classList.toggle("bad", faulty);
@@ -155,7 +155,7 @@ export class Accuracy {
         for (const key of ["predicted", "noise", "measured", "raw", "effective", "more"])
             this.#cells[key][0].parentElement.hidden = (!estimates || key === "noise") && this.#cells[key][0].textContent === "–";
         this.#nodes.formula.hidden = !estimates;
-        this.#cells.faulty[0].parentElement.classList.toggle("bad", badValues(this.#header) !== 0);
+        this.#cells.faulty[0].parentElement.classList.toggle("bad", wrongValues(this.#header) !== 0);
     }
 
     #drawPlot() {

@@ -1,7 +1,7 @@
 // The statistics over the picture: what moves, how late it is, and where the milliseconds go.
 import { bytesShort, element, fixed } from "./dom.js";
 import { errorNumber, errorOf } from "./frontier.js";
-import { KINDS, badValues } from "./protocol.js";
+import { KINDS, badValues, wrongValues } from "./protocol.js";
 
 const REFRESH_MS = 250;   // more often, numbers cannot be read
 const FORMAT_NAMES = { jpeg420: "JPEG 4:2:0", jpeg444: "JPEG 4:4:4", png: "PNG", raw: "raw float" };
@@ -155,7 +155,8 @@ export class Overlay {
         for (const [key, text] of Object.entries(figures))
             this.#cells[key].textContent = text;
         this.#cells.error.parentElement.hidden = figures.error === "";
-        this.#cells.bad.classList.toggle("bad", badValues(header) !== 0);
+        this.#cells.bad.classList.toggle("bad", wrongValues(header) !== 0);
+        this.#cells.bad.classList.toggle("cut", wrongValues(header) === 0 && badValues(header) !== 0);
         this.#bad.hidden = stages.length === 0;
         this.#bad.replaceChildren(...(stages.length ? badTable(stages) : []));
         STAGES.forEach((stage, i) => {

@@ -13,8 +13,9 @@ export const FLAGS = { still: 1, lossless: 2, history_reset: 4, converged: 8 };
 /** Kinds of bad values, in the order of the stage table's counts. */
 export const KINDS = ["nan", "infinite", "negative", "clamped"];
 
-/** Values of a frame that no healthy one has. */
+/** Values of a frame that no healthy one has; those that are wrong, not only cut at a limit. */
 export const badValues = ({ nonfinite_count, negative_count, clamped_count }) => nonfinite_count + negative_count + clamped_count;
+export const wrongValues = ({ nonfinite_count, negative_count }) => nonfinite_count + negative_count;
 
 /** Close codes after which a client may connect again. Codes not listed: it may. */
 export const RECONNECT_AFTER = {

@@ -161,7 +161,6 @@ const Variant& ScenePrograms::choose(
         remember(chosen_);
         return chosen_;
     }
-    ask_for(chosen_, declare);
     const Variant* smallest = nullptr;
     for (Variant& other : known_) {
         other.inputs.buffers = scene_->textures();
@@ -170,8 +169,15 @@ const Variant& ScenePrograms::choose(
             && missing(other, declare).empty())
             smallest = &other;
     }
-    chosen_ = smallest != nullptr ? *smallest : variant_of(EffectMask::general());
-    return chosen_;
+    Variant general = variant_of(EffectMask::general());
+    const std::size_t lacking = missing(general, declare).size();
+    if (smallest == nullptr && lacking > 0 && lacking >= missing(chosen_, declare).size()) {
+        remember(chosen_);  // something must be compiled at once, and the scene's own takes least
+        return chosen_;
+    }
+    const Variant instead = smallest != nullptr ? *smallest : std::move(general);
+    ask_for(chosen_, declare);
+    return chosen_ = instead;
 }
 
 void ScenePrograms::ask_for(const Variant& variant, const DeclareFrame& declare)

@@ -35,7 +35,7 @@ uniform writeonly image2D out_display;
 
 const int HALO = 2;         // [px]
 const float DIMMED = 0.25;  // of what the picture shows
-const float TINTED = 0.45;  // of a kind's colour
+const float TINTED = 0.7;   // of a kind's colour
 
 const uint COLORS[KIND_COUNT] = uint[](NAN_COLOR, INFINITE_COLOR, NEGATIVE_COLOR, CLAMPED_COLOR);
 
