@@ -105,10 +105,9 @@ std::string line_of(const Judged& judged)
         "  " + std::string(judged.hard_case.id) + "  " + std::string(judged.hard_case.name) + "  ";
     if (!judged.failure.empty())
         return line + judged.failure;
-    if (!judged.findings.out_of_reach_because().empty())
-        return line + judged.findings.out_of_reach_because();
-    return m == nullptr ? line + "measured nothing"
-                        : line + text_of(*m) + "  margin " + margin_of(*m);
+    line += m == nullptr ? "measured nothing" : text_of(*m) + "  margin " + margin_of(*m);
+    const std::string& reason = judged.findings.out_of_reach_because();
+    return reason.empty() ? line : line + "  (" + reason + ")";
 }
 
 std::string line_of(const Mutation& mutation)

@@ -90,13 +90,13 @@ struct Candidate {
 };
 
 // Of two hits in one place that of the lower rank is seen, whatever order the tree has: of the world's triangles those
-// of the object that the scene names first, then instances in their order.
-uint rank_in(Traversal ray, uint object)
+// of the object that the scene names first, spheres and disks by their place, then instances in their order.
+uint rank_in(Traversal ray, uint rank)
 {
 #ifdef FX_INSTANCES
-    return ray.instance != NO_INSTANCE ? 0x80000000u | ray.instance : object;
+    return ray.instance != NO_INSTANCE ? 0x80000000u | ray.instance : rank;
 #else
-    return object;
+    return rank;
 #endif
 }
 
@@ -150,7 +150,7 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout 
         const float t = intersect_sphere(ray, sphere.xyz, sphere.w, 0.0, limit);
         const uint material = 0u;
 #endif
-        const uint rank = rank_in(ray, 0u);
+        const uint rank = rank_in(ray, uint(place));
         if (t > 0.0 && (t < hit.t || rank < candidate.nearest) && kind == BVH_SPHERES) {
             accept(hit, candidate, ray, t, rank, slot, vec2(0.0), material);
 #ifdef FX_ALPHA
@@ -169,7 +169,7 @@ void intersect_primitive(Traversal ray, uint leaf, uint k, inout Hit hit, inout 
 #else
         const uint material = 0u;
 #endif
-        const uint rank = rank_in(ray, 0u);
+        const uint rank = rank_in(ray, uint(place));
         if (t > 0.0 && (t < hit.t || rank < candidate.nearest) && kind == BVH_DISKS)
             accept(hit, candidate, ray, t, rank, slot, vec2(0.0), material);
     }
