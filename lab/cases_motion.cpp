@@ -256,8 +256,8 @@ constexpr Case kMotionCases[] = {
 };
 
 constexpr Guard kMotionGuards[] = {
-    {"instances_in_order", "15b", "geometry/traverse.glsl",
-        "? 0x80000000u | ray.instance : object;", "? 0x80000000u : object;"},
+    {"instances_in_order", "15b", "geometry/traverse.glsl", "? 0x80000000u | ray.instance : rank;",
+        "? 0x80000000u : rank;"},
     {"moments_in_doubles", "68d"},
     {"moved_since_last_frame", "65c 68c"},
     {"up_is_upright", "63b 63e"},
