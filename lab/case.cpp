@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 namespace farlight::lab {
 
@@ -16,7 +18,7 @@ std::string_view to_text(Layer layer)
 
 double Measurement::margin() const
 {
-    if (bound == 0)
+    if (bound == 0 || measured == bound)
         return holds() ? 1 : -1;
     const double left = (upper ? bound - measured : measured - bound) / std::abs(bound);
     return std::isnan(left) ? -1 : left;
@@ -38,11 +40,25 @@ bool Findings::hold() const
     });
 }
 
+namespace {
+
+/// Laws after cases, by number, then by letter.
+std::tuple<bool, int, std::string_view> rank_of(const Case& one)
+{
+    const bool law = one.id.starts_with('M');
+    const std::string digits(one.id.substr(law ? 1 : 0));
+    return {law, std::stoi(digits), one.id};
+}
+
+}  // namespace
+
 std::vector<Case> all_cases()
 {
     std::vector<Case> cases;
     for (const Group& group : all_groups())
         cases.insert(cases.end(), group.cases.begin(), group.cases.end());
+    std::sort(cases.begin(), cases.end(),
+        [](const Case& a, const Case& b) { return rank_of(a) < rank_of(b); });
     return cases;
 }
 

@@ -36,7 +36,8 @@ struct Measurement {
 
     /// NaN keeps no bound.
     bool holds() const { return upper ? measured <= bound : measured >= bound; }
-    /// Share of the bound that is left, negative where it is broken; of the bound 0: 1 or -1.
+    /// Share of the bound that is left, negative where it is broken; of the bound 0: 1 or -1; on
+    /// the bound, as counts are that must be exact: 1.
     double margin() const;
 };
 
@@ -80,7 +81,7 @@ struct Case {
     void (*run)(Findings& findings, Length length);
 };
 
-/// All cases, by group and number. The files cases_*.cpp hold a group each.
+/// All cases, by number. The files cases_*.cpp hold a group each.
 std::vector<Case> all_cases();
 
 }  // namespace farlight::lab

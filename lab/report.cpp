@@ -23,7 +23,7 @@ std::string text_of(const Measurement& m)
 
 std::string margin_of(const Measurement& m)
 {
-    if (m.bound == 0)
+    if (m.bound == 0 || m.measured == m.bound)
         return m.holds() ? "exact" : "none";
     return number(100 * m.margin()) + " %";
 }
