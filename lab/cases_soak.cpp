@@ -180,8 +180,8 @@ constexpr Guard kSoakGuards[] = {
         "const float alpha = max(least_alpha(p), 1.0 / length);",
         "const float alpha = max(1e-6 * least_alpha(p), 1.0 / length);"},
     {"longest_history", "55b", "svgf/temporal.comp",
-        "length = min(sum.least_length + length, float(history_max));",
-        "length = min(sum.least_length + length, 1e6 * float(history_max));"},
+        "length = min(old.least_length + length, float(history_max));",
+        "length = min(old.least_length + length, 1e6 * float(history_max));"},
 };
 
 }  // namespace
