@@ -36,7 +36,7 @@ const Measurement* Findings::decisive() const
 bool Findings::hold() const
 {
     return !all_.empty() && std::all_of(all_.begin(), all_.end(), [](const Measurement& one) {
-        return one.holds();
+        return one.holds() || one.known;
     });
 }
 

@@ -33,6 +33,7 @@ struct Measurement {
     double measured = 0;
     double bound = 0;
     bool upper = true;  ///< The bound is the most it may be, else the least.
+    bool known = false;  ///< It is broken, as it is known to be.
 
     /// NaN keeps no bound.
     bool holds() const { return upper ? measured <= bound : measured >= bound; }
@@ -54,14 +55,23 @@ public:
     }
     /// For counts of what must not happen.
     void none(std::string what, double measured) { at_most(std::move(what), measured, 0); }
-    /// The device cannot do what the case needs; the case is counted as out of reach, not as kept.
-    void out_of_reach(std::string reason) { reason_ = std::move(reason); }
+    /// What `because` says keeps the bound from being kept: no failure of a run as long as it is no
+    /// worse than `at_worst`. It is counted all the same.
+    void known_to_fail(const std::string& what, double measured, double bound, double at_worst,
+        std::string because)
+    {
+        const bool known = measured > bound && measured <= at_worst;
+        all_.push_back({what, measured, bound, true, known});
+        reason_ = known ? std::move(because) : reason_;
+    }
 
     std::span<const Measurement> all() const { return all_; }
-    const std::string& out_of_reach_because() const { return reason_; }
+    /// Of what is known to fail; else empty.
+    const std::string& reason() const { return reason_; }
     /// The measurement that decides: a broken one if there is one, else that of the least margin;
     /// nullptr without any.
     const Measurement* decisive() const;
+    /// Whether all hold but for what is known to fail.
     bool hold() const;
 
 private:

@@ -107,10 +107,9 @@ void shadows_catch_up(Findings& findings, Length /*length*/)
             lit = farther(lit, expected);
             most = farther(most, std::abs(now - expected));
         }
-    findings.at_most("shadow left after 8 frames, of the light", most / lit, 0.05);
-    if (most / lit > 0.05)
-        findings.out_of_reach("a new frame weighs a fifth, whatever it shows: there is no weight "
-                              "that adapts to change");
+    findings.known_to_fail("shadow left after 8 frames, of the light", most / lit, 0.05, 0.6,
+        "in Schied et al. 2017 a new frame weighs a fifth, whatever it shows: no weight adapts to "
+        "change");
 }
 
 /// A whole number of turns later, or earlier, everything is where it was.

@@ -74,13 +74,19 @@ code { font-size: 13px; }
 </style>
 )";
 
+std::string with_reason(const Judged& judged)
+{
+    const std::string& reason = judged.findings.reason();
+    return reason.empty() ? reason : "  (" + reason + ")";
+}
+
 std::string row_of(const Judged& judged)
 {
     const Measurement* m = judged.findings.decisive();
     const std::string verdict(judged.verdict());
     return "<tr>" + cell(judged.hard_case.id) + cell(judged.hard_case.name)
         + cell(judged.hard_case.claim) + cell(to_text(judged.hard_case.layer))
-        + cell(m == nullptr ? judged.failure + judged.findings.out_of_reach_because() : text_of(*m))
+        + cell(m == nullptr ? judged.failure : text_of(*m) + with_reason(judged))
         + cell(m == nullptr ? "" : margin_of(*m)) + "<td class=\"" + verdict + "\">" + verdict
         + "</td></tr>\n";
 }
@@ -91,9 +97,9 @@ std::string_view Judged::verdict() const
 {
     if (!failure.empty())
         return "FAIL";
-    if (!findings.out_of_reach_because().empty())
-        return "out of reach";
-    return findings.hold() ? "ok" : "FAIL";
+    if (!findings.hold())
+        return "FAIL";
+    return findings.reason().empty() ? "ok" : "known failure";
 }
 
 std::string line_of(const Judged& judged)
@@ -106,8 +112,7 @@ std::string line_of(const Judged& judged)
     if (!judged.failure.empty())
         return line + judged.failure;
     line += m == nullptr ? "measured nothing" : text_of(*m) + "  margin " + margin_of(*m);
-    const std::string& reason = judged.findings.out_of_reach_because();
-    return reason.empty() ? line : line + "  (" + reason + ")";
+    return line + with_reason(judged);
 }
 
 std::string line_of(const Mutation& mutation)
@@ -129,8 +134,8 @@ json to_json(const Sheet& sheet)
             {"seconds", judged.seconds}, {"measurements", json::array()}};
         if (!judged.failure.empty())
             row["failure"] = judged.failure;
-        if (!judged.findings.out_of_reach_because().empty())
-            row["out_of_reach"] = judged.findings.out_of_reach_because();
+        if (!judged.findings.reason().empty())
+            row["known_because"] = judged.findings.reason();
         for (const Measurement& m : judged.findings.all())
             row["measurements"].push_back(to_json(m));
         page["cases"].push_back(std::move(row));

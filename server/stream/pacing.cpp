@@ -39,7 +39,7 @@ void Pacing::dropped()
 
 void Pacing::sent(std::uint32_t frame_id, Time now, std::optional<Time> asked)
 {
-    assert(preparing_ > 0 && is_after(frame_id, last_sent_));
+    assert(preparing_ > 0 && frame_id == last_sent_ + 1);
     --preparing_;
     last_sent_ = frame_id;
     unacknowledged_.push_back({frame_id, now, asked, std::nullopt});
