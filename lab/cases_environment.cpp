@@ -204,10 +204,7 @@ void seam(Findings& findings, Length length)
     Rendering how = averaged(length == Length::kLong ? 256 : 16, true, 4);
     const Image ahead = rendered(things_under(map), how);
     how.settings.seed = 2;
-    const Agreement found = agreement_of(ahead, rendered(turned, how));
-    findings.at_most("means differ [standard errors]", found.standard_errors, 5);
-    findings.at_least("least p-value of a tile", found.least_p_value,
-        1 - std::pow(0.99, 1.0 / static_cast<double>(found.tiles)));
+    report_agreement(findings, "", agreement_of(ahead, rendered(turned, how)), 0.01);
     // Where the sky is seen itself there is no noise but that of a pixel's area.
     Scene sky = things_under(map);
     sky.objects.clear();

@@ -3,7 +3,7 @@
 #include "lab/device_scene.h"
 #include "lab/groups.h"
 #include "lab/meshes.h"
-#include "lab/statistics.h"
+#include "lab/rendering.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,13 +66,6 @@ double unlike(const Image& a, const Image& b, float factor = 1)
     return count;
 }
 
-/// Means of two pictures whose noise is independent, apart by how many standard errors.
-double standard_errors_apart(const Image& a, const Image& b)
-{
-    const Estimate difference = mean_of(difference_of(a, b));
-    return std::abs(difference.mean) / difference.standard_error;
-}
-
 void brighter_lamps(Findings& findings, Length /*length*/)
 {
     const Scene scene = room();
@@ -129,14 +122,12 @@ Scene turned(Scene scene)
     return scene;
 }
 
-/// 4 standard errors are passed by one run in 16,000.
 void expect_the_same_mean(Findings& findings, const Scene& a, const Scene& b)
 {
     const Drawn one = draw(a, Denoiser::kAccumulate, 8, 16);
     const Drawn other = draw(b, Denoiser::kAccumulate, 8, 16);
     findings.none("values that are not finite", one.nonfinite + other.nonfinite);
-    findings.at_most("means apart, of 128 samples [standard errors]",
-        standard_errors_apart(one.image, other.image), 4);
+    report_agreement(findings, "of 128 samples: ", agreement_of(one.image, other.image), 0.01);
 }
 
 void turned_scene(Findings& findings, Length /*length*/)

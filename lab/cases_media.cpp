@@ -159,12 +159,8 @@ void agree_with_layers(Findings& findings, const CameraPose& camera, Length leng
     Rendering how = averaged(length == Length::kLong ? 1024 : 64, true, 32);
     how.settings.antialiasing = false;
     how.extent = {32, 24};
-    const Agreement found =
-        agreement_of(expected(camera, how.extent, radiance), rendered(scene, how));
-    findings.at_most("mean off the layers' [standard errors]", found.standard_errors, 5);
-    findings.at_most("standard error over the mean", found.standard_error, 5e-3);
-    findings.at_least("least p-value of a tile", found.least_p_value,
-        1 - std::pow(0.99, 1.0 / static_cast<double>(found.tiles)));
+    report_agreement(findings, "",
+        agreement_of(expected(camera, how.extent, radiance), rendered(scene, how)), 5e-3);
 }
 
 void water_in_glass(Findings& findings, Length length)

@@ -66,6 +66,24 @@ void roulette(Findings& findings, Length /*length*/)
     findings.at_most("mean off the series [standard errors]", off, 5);
 }
 
+/// Paths in a dark box are ended almost always; those that go on weigh 1 / q, of which the least q
+/// is 1 / 20.
+void rare_survivors(Findings& findings, Length /*length*/)
+{
+    constexpr float kDark = 0.01F;
+    Rendering how = averaged(1, false, 4);
+    how.frames = 1;
+    how.settings.roulette_depth = 1;
+    const Image picture = rendered(furnace(kDark), how);
+    double brightest = 0;
+    for (const float value : values_of(picture))
+        brightest = farther(brightest, value);
+    // The first bounce is weighed apart; each of the next two brings 20 * albedo at most.
+    const double most = static_cast<double>(kDark) * (1 + 0.2 + 0.04);
+    findings.at_most("brightest pixel beyond what is always there", brightest - 1, 1.001 * most);
+    findings.at_least("likewise, so that some path went on", brightest - 1, 0.95 * most);
+}
+
 Scene ball_under_a_white_sky(const Material& material)
 {
     Scene scene;
@@ -216,6 +234,8 @@ constexpr Case kTransportCases[] = {
         tiny_bright_lamp},
     {"41", "transport", "Russian roulette", Layer::kPicture,
         "Ending paths by chance leaves the mean as it is.", roulette},
+    {"41b", "transport", "rare survivors", Layer::kPicture,
+        "A path that goes on where most are ended weighs at most twenty.", rare_survivors},
     {"45", "transport", "fog of any density", Layer::kPicture,
         "Absorbing fog follows Beer and Lambert from 1e-9 to 1e9 a metre; none is none.",
         fog_of_any_density},
@@ -236,6 +256,8 @@ constexpr Guard kTransportGuards[] = {
     {"one_sided_lamps", "37", "lights/area.glsl",
         "light.emits_both_sides || dot(normal, way) < 0.0 ? light.radiance : vec3(0.0)",
         "light.radiance"},
+    {"least_survival", "41b", "path_trace/path_trace.comp", "clamp(max_component(next), 0.05, 1.0)",
+        "clamp(max_component(next), 1e-9, 1.0)"},
     {"roulette_weight", "41", "path_trace/path_trace.comp", "next /= survive;", ""},
     {"chosen_by_power", "38"},
     {"fog_ahead", "45", "media/fog.glsl", "clamp(middle - half_chord, 0.0, t_max)",

@@ -1,7 +1,6 @@
 // See the header.
 #include "lab/rendering.h"
 
-#include "lab/case.h"
 #include "lab/statistics.h"
 #include "server/gl/shader_source.h"
 
@@ -120,6 +119,16 @@ Agreement agreement_of(const Image& a, const Image& b)
             ++found.tiles;
         }
     return found;
+}
+
+void report_agreement(
+    Findings& findings, const std::string& which, const Agreement& agreement, double most_error)
+{
+    findings.at_most(which + "means differ [standard errors]", agreement.standard_errors, 5);
+    findings.at_most(
+        which + "standard error of that, over the mean", agreement.standard_error, most_error);
+    findings.at_least(which + "least p-value of a tile", agreement.least_p_value,
+        1 - std::pow(0.99, 1.0 / static_cast<double>(agreement.tiles)));
 }
 
 ChangedShader::ChangedShader(

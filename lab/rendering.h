@@ -1,6 +1,7 @@
 // Small pictures of scenes, what they are compared with, and shaders changed for a while.
 #pragma once
 
+#include "lab/case.h"
 #include "lab/device_scene.h"
 #include "lab/guards.h"
 
@@ -45,6 +46,10 @@ struct Agreement {
     std::size_t tiles = 0;
 };
 Agreement agreement_of(const Image& a, const Image& b);
+/// Means within 5 standard errors (one run in 1.7 million passes them), of which one is at most
+/// `most_error` of the mean, and no tile that fewer than one run in a hundred has (Šidák).
+void report_agreement(
+    Findings& findings, const std::string& which, const Agreement& agreement, double most_error);
 
 /// While it lives, shaders compiled anew have `instead` for `text` in `file`, where it stands once.
 class ChangedShader {
