@@ -26,6 +26,7 @@ Group insides_group();
 Group laws_group();
 Group light_group();
 Group media_group();
+Group mirrored_group();
 Group motion_group();
 Group normals_group();
 Group origin_group();
@@ -60,6 +61,7 @@ inline std::vector<Group> all_groups()
         laws_group(),
         light_group(),
         media_group(),
+        mirrored_group(),
         motion_group(),
         normals_group(),
         origin_group(),
