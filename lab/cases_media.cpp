@@ -174,15 +174,58 @@ void camera_in_the_water(Findings& findings, Length length)
         findings, {{0, 0, 0}, {0, -0.5, -1}, {0, 1, 0}, 50}, length, seen_from_the_water);
 }
 
+/// Fog that absorbs nothing, around a white ball under a white sky: there is nothing to be seen. In
+/// grey fog every path brings back 1 unless it is cut off; with colours that is so in the mean.
+void white_fog(Findings& findings, Length /*length*/)
+{
+    struct Fog {
+        const char* name;
+        glm::vec3 sigma_s;
+        float g;
+        bool grey;
+    };
+    // Optical thickness across the fog is up to 8 sigma: thin enough that 64 segments get out.
+    static constexpr Fog kFogs[] = {{"isotropic", glm::vec3(0.2F), 0, true},
+        {"next to none", glm::vec3(1e-7F), 0, true}, {"forward", glm::vec3(0.4F), 0.8F, true},
+        {"all forward", glm::vec3(0.4F), 0.999F, true}, {"backward", glm::vec3(0.2F), -0.5F, true},
+        {"coloured", {0.05F, 0.2F, 0.4F}, 0.3F, false},
+        {"one channel clear", {0.2F, 0, 0.1F}, 0, false}};
+    Scene scene;
+    scene.materials.push_back({"white", glm::vec3(1)});
+    scene.objects.push_back({"ball", 0, Sphere{{0, 0, 0}, 1}});
+    scene.background = glm::vec3(1);
+    scene.camera = {{0, 1, 3.2}, {0, 0, 0}, {0, 1, 0}, 45};
+    for (const Fog& fog : kFogs) {
+        scene.medium = {"fog", glm::vec3(0), fog.sigma_s, fog.g};
+        Rendering how = averaged(fog.grey ? 8 : 128, true, 64);
+        how.settings.antialiasing = false;
+        how.extent = {32, 24};
+        how.frames = 1;
+        const Image image = rendered(scene, how);
+        const std::string name = std::string(fog.name) + " fog: ";
+        // Weights of up to 64 vertices, each off by an ulp or two, and as many steps.
+        if (fog.grey)
+            findings.at_most(name + "any pixel off the sky's 1", largest_off(image, 1), 1e-4);
+        else
+            findings.at_most(
+                name + "mean off the sky's 1 [standard errors]", standard_errors_off(image, 1), 5);
+    }
+}
+
 constexpr Case kMediaCases[] = {
     {"34", "media", "water in glass", Layer::kPicture,
         "Water that reaches into the panes around it passes what its layers do in closed form.",
         water_in_glass},
     {"34b", "media", "camera in the water", Layer::kPicture,
         "Likewise for who looks out of the water.", camera_in_the_water},
+    {"45b", "media", "white fog", Layer::kPicture,
+        "A white ball in fog that absorbs nothing cannot be seen under a white sky.", white_fog},
 };
 
 constexpr Guard kMediaGuards[] = {
+    {"fog_s_share", "45b", "path_trace/path_trace.comp",
+        "scattered += event.weight * (g.direct + g.indirect);",
+        "scattered += g.direct + g.indirect;"},
     {"highest_priority_prevails", "34 34b", "bsdf/interior.glsl",
         "if (entered[k] != 0u && inside.priority >= best.priority)", "if (entered[k] != 0u)"},
     {"paths_start_in_what_is_around", "34b"},

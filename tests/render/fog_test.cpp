@@ -70,51 +70,6 @@ TEST_F(GlTest, AbsorbingFogFollowsBeerAndLambert)
         }
 }
 
-struct WhiteFog {
-    const char* name;
-    glm::vec3 sigma_s;
-    float g;
-    bool grey;
-
-    friend void PrintTo(const WhiteFog& fog, std::ostream* out) { *out << fog.name; }
-};
-
-class WhiteFogTest : public GlTest, public testing::WithParamInterface<WhiteFog> { };
-
-/// Fog that absorbs nothing, around a white ball under a white sky: there is nothing to be seen.
-/// In grey fog every path brings back 1 unless it is cut off; with colours that is so in the mean.
-TEST_P(WhiteFogTest, VanishesUnderAWhiteSky)
-{
-    const auto& [name, sigma_s, g, grey] = GetParam();
-    Scene scene = foggy({"fog", glm::vec3(0), sigma_s, g}, 1);
-    scene.materials[0].albedo = glm::vec3(1);
-    scene.background = glm::vec3(1);
-    scene.camera = {{0, 1, 3.2}, {0, 0, 0}, {0, 1, 0}, 45};
-    const DeviceScene on_device(scene);
-    RenderSettings s = settings_of(64, grey ? 8 : 256);
-    const Image image = mean_picture(on_device, s, 1);
-    if (grey) {
-        for (int y = 0; y < kFogExtent.height; ++y)
-            for (int x = 0; x < kFogExtent.width; ++x)
-                // 1e-4: weights of up to 64 vertices, each off by an ulp or two, and as many steps
-                ASSERT_NEAR(pixel(image, x, y).x, 1, 1e-4) << x << "," << y;
-    } else {
-        const Estimate estimate = mean_of(image);
-        EXPECT_NEAR(estimate.mean, 1, 5 * estimate.standard_error);
-        EXPECT_LT(estimate.standard_error, 0.01);
-    }
-}
-
-// Optical thickness across the fog is up to 8 * sigma; thin enough that 64 segments get out of it.
-INSTANTIATE_TEST_SUITE_P(Fogs, WhiteFogTest,
-    testing::Values(WhiteFog{"Isotropic", glm::vec3(0.2F), 0, true},
-        WhiteFog{"NextToNothing", glm::vec3(1e-7F), 0, true},
-        WhiteFog{"Forward", glm::vec3(0.4F), 0.8F, true},
-        WhiteFog{"Backward", glm::vec3(0.2F), -0.5F, true},
-        WhiteFog{"Coloured", glm::vec3(0.05F, 0.2F, 0.4F), 0.3F, false},
-        WhiteFog{"OneChannelClear", glm::vec3(0.2F, 0, 0.1F), 0, false}),
-    [](const auto& test) { return test.param.name; });
-
 double henyey_greenstein(double cosine, double g)
 {
     return (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
