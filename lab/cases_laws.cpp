@@ -145,13 +145,12 @@ Scene split(Scene scene)
             objects.push_back(object);
             continue;
         }
-        for (int part = 0; part < 4; ++part) {
+        for (const glm::dvec2 part :
+            {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)}) {
             const glm::dvec3 u = quad->edge_u * 0.5;
             const glm::dvec3 v = quad->edge_v * 0.5;
             Object one = object;
-            one.shape = Quad{quad->corner + u * static_cast<double>(part % 2)
-                    + v * static_cast<double>(part / 2),
-                u, v};
+            one.shape = Quad{quad->corner + u * part.x + v * part.y, u, v};
             objects.push_back(one);
         }
     }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <nlohmann/json.hpp>
 
 namespace farlight::lab {
 namespace {
@@ -180,29 +181,26 @@ void the_same_view_said_otherwise(Findings& findings, Length /*length*/)
 /// Pairs of equal things in the same place, at rest and turning, amid a crowd.
 Scene pairs(int& count)
 {
-    const std::string spin =
-        R"(, "spin": {"axis": [0.2, 1, 0], "center": [0, 0, 0], "period": 4}})";
-    const std::string shapes[] = {R"("sphere": {"center": [1, 0.2, 0], "radius": 0.5}})",
-        R"("disk": {"center": [-1, 0, 0.3], "normal": [0, 1, 1], "radius": 0.6}})",
-        R"("box": {"center": [0, 1, 0.4], "size": [0.7, 0.5, 0.6]}})"};
-    std::string objects;
+    const nlohmann::json shapes{{"sphere", {{"center", {1, 0.2, 0}}, {"radius", 0.5}}},
+        {"disk", {{"center", {-1, 0, 0.3}}, {"normal", {0, 1, 1}}, {"radius", 0.6}}},
+        {"box", {{"center", {0, 1, 0.4}}, {"size", {0.7, 0.5, 0.6}}}}};
+    nlohmann::json objects = nlohmann::json::array();
     for (const bool turns : {false, true})
-        for (std::string shape : shapes) {
+        for (const auto& [kind, shape] : shapes.items()) {
+            nlohmann::json object{{"material", "white"}, {kind, shape}};
             if (turns)
-                shape = shape.substr(0, shape.size() - 1) + spin;
-            for (int copy = 0; copy < 2; ++copy)
-                objects += R"({"material": "white", )" + shape + ",";
+                object["spin"] = {{"axis", {0.2, 1, 0}}, {"center", {0, 0, 0}}, {"period", 4}};
+            objects.insert(objects.end(), {object, object});
             ++count;
         }
     for (int i = 0; i < 40; ++i)
-        objects += R"({"material": "white", "sphere": {"center": [)"
-            + std::to_string(2 * std::cos(i * 2.4)) + "," + std::to_string(0.1 * i - 2) + ","
-            + std::to_string(2 * std::sin(i * 2.4)) + R"(], "radius": 0.15}},)";
-    objects.pop_back();
-    return parse_scene(R"({"version": 1, "materials": {"white": {"albedo": [0.8, 0.8, 0.8]}},
-        "objects": [)"
-            + objects + "]}",
-        ".", "pairs");
+        objects.push_back({{"material", "white"},
+            {"sphere",
+                {{"center", {2 * std::cos(i * 2.4), 0.1 * i - 2, 2 * std::sin(i * 2.4)}},
+                    {"radius", 0.15}}}});
+    const nlohmann::json document{{"version", 1},
+        {"materials", {{"white", {{"albedo", {0.8, 0.8, 0.8}}}}}}, {"objects", objects}};
+    return parse_scene(document.dump(), ".", "pairs");
 }
 
 /// Whichever of two is seen, it is seen by all rays from everywhere.

@@ -175,7 +175,7 @@ const Variant& ScenePrograms::choose(
         remember(chosen_);  // something must be compiled at once, and the scene's own takes least
         return chosen_;
     }
-    const Variant instead = smallest != nullptr ? *smallest : std::move(general);
+    const Variant instead = smallest != nullptr ? *smallest : general;
     ask_for(chosen_, declare);
     return chosen_ = instead;
 }
