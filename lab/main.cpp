@@ -180,6 +180,11 @@ int run(const Options& options)
     if (options.list)
         return list();
     const std::vector<Case> cases = chosen_cases(options);
+    std::ofstream page;
+    if (!options.html.empty())  // now, not after minutes
+        page.open(options.html);
+    if (page.fail())
+        throw CLI::ValidationError(options.html + " cannot be written");
     if (!options.without.empty())
         take_out_by_name(options.without);
     spdlog::set_default_logger(spdlog::stderr_color_st("farlight-hard-cases"));
@@ -209,7 +214,7 @@ int run(const Options& options)
         lines << kWithoutARow << missing << "\n";
     if (options.json)
         std::cout << to_json(sheet).dump(2) << "\n";
-    if (!options.html.empty() && !(std::ofstream(options.html) << to_html(sheet)))
+    if (page.is_open() && !(page << to_html(sheet) << std::flush))
         throw CLI::ValidationError(options.html + " cannot be written");
     const bool broken = std::any_of(sheet.cases.begin(), sheet.cases.end(),
         [](const Judged& judged) { return judged.counts_as_failure(); });
