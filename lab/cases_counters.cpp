@@ -3,6 +3,7 @@
 #include "lab/device_scene.h"
 #include "lab/groups.h"
 #include "lab/injections.h"
+#include "lab/meshes.h"
 #include "server/scene/scene.h"
 
 #include <cmath>
@@ -15,15 +16,7 @@ constexpr Extent kCounted{24, 16};
 /// A closed box of lamps filled with thin fog: paths meet every stage of theirs at every pixel.
 Scene foggy_box()
 {
-    Scene scene;
-    scene.materials.push_back({"wall", glm::vec3(0.5F), glm::vec3(1), true});
-    const auto add = [&](const Quad& quad) { scene.objects.push_back({"wall", 0, quad}); };
-    add({{-2, -2, -2}, {0, 0, 4}, {4, 0, 0}});
-    add({{-2, 2, -2}, {4, 0, 0}, {0, 0, 4}});
-    add({{-2, -2, -2}, {0, 4, 0}, {0, 0, 4}});
-    add({{2, -2, -2}, {0, 0, 4}, {0, 4, 0}});
-    add({{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}});
-    add({{-2, -2, 2}, {0, 4, 0}, {4, 0, 0}});
+    Scene scene = box_of({"wall", glm::vec3(0.5F), glm::vec3(1), true});
     scene.camera = {{0.3, 0.2, 1.2}, {0, 0, -1}, {0, 1, 0}, 60};
     scene.medium.sigma_s = glm::vec3(0.05F);
     return scene;

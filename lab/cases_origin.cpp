@@ -2,6 +2,7 @@
 #include "lab/groups.h"
 #include "lab/meshes.h"
 #include "lab/moved.h"
+#include "lab/rendering.h"
 #include "lab/statistics.h"
 
 #include "lab/device_scene.h"
@@ -126,14 +127,6 @@ Looks looks_of(const Scene& source, const CameraPose& camera)
     return looks;
 }
 
-double unlike(const std::vector<float>& a, const std::vector<float>& b)
-{
-    double count = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        count += a[i] == b[i] ? 0 : 1;
-    return count;
-}
-
 /// Positions shown, less `by`, against those of before, in roundings of the largest coordinate.
 double positions_off(const Looks& looks, const Looks& before, const glm::dvec3& by)
 {
@@ -167,7 +160,7 @@ void far_is_as_near(Findings& findings, Length length)
             if (kLookedAt[i] != DebugView::kPosition)
                 findings.none(name + "values of other bits in the view "
                         + std::string(kDebugViewNames[static_cast<std::size_t>(kLookedAt[i])]),
-                    unlike(far.values.at(i), near.values.at(i)));
+                    values_unlike(far.values.at(i), near.values.at(i)));
         findings.at_most(name + "positions shown off [ulp]", positions_off(far, near, place), 1);
     }
 }

@@ -3,6 +3,7 @@
 #include "lab/device_scene.h"
 #include "lab/filter_bench.h"
 #include "lab/groups.h"
+#include "lab/meshes.h"
 #include "lab/poison.h"
 #include "server/scene/scene.h"
 
@@ -23,16 +24,7 @@ constexpr double kFurnaceRadiance = 1.875;
 
 Scene furnace_box()
 {
-    Scene scene;
-    Material wall{"wall", glm::vec3(0.5F), glm::vec3(1), true};
-    scene.materials.push_back(wall);
-    const auto add = [&](const Quad& quad) { scene.objects.push_back({"wall", 0, quad}); };
-    add({{-2, -2, -2}, {0, 0, 4}, {4, 0, 0}});
-    add({{-2, 2, -2}, {4, 0, 0}, {0, 0, 4}});
-    add({{-2, -2, -2}, {0, 4, 0}, {0, 0, 4}});
-    add({{2, -2, -2}, {0, 0, 4}, {0, 4, 0}});
-    add({{-2, -2, -2}, {4, 0, 0}, {0, 4, 0}});
-    add({{-2, -2, 2}, {0, 4, 0}, {4, 0, 0}});
+    Scene scene = box_of({"wall", glm::vec3(0.5F), glm::vec3(1), true});
     scene.camera = {{0.3, 0.2, 1.2}, {0, 0, -1}, {0, 1, 0}, 60};
     return scene;
 }

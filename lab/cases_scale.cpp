@@ -3,6 +3,7 @@
 #include "lab/meshes.h"
 #include "lab/moved.h"
 #include "lab/ray_probe.h"
+#include "lab/rendering.h"
 #include "server/render/camera.h"
 
 #include <algorithm>
@@ -52,14 +53,6 @@ Sized last_frame_at(const DeviceScene& scene, double scale, DebugView shown)
     return sized;
 }
 
-double different(const std::vector<float>& a, const std::vector<float>& b)
-{
-    double count = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        count += a[i] == b[i] ? 0 : 1;
-    return count;
-}
-
 /// `draw(scale)` at all these powers of two against that at 1. Returns the latter.
 template <typename Draw>
 Sized report_sizes(Findings& findings, const std::vector<int>& powers, const Draw& draw)
@@ -71,7 +64,7 @@ Sized report_sizes(Findings& findings, const std::vector<int>& powers, const Dra
         const std::string name = "2^" + std::to_string(power) + ": ";
         findings.none(name + "non-finite values", sized.nonfinite);
         findings.none(name + "values of other bits, of " + std::to_string(at_one.values.size()),
-            different(sized.values, at_one.values));
+            values_unlike(sized.values, at_one.values));
     }
     return at_one;
 }

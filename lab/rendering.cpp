@@ -94,14 +94,20 @@ double standard_errors_off(const Image& image, double expected)
     return std::abs(estimate.mean - expected) / (estimate.standard_error + 1e-6 * expected);
 }
 
+double values_unlike(const std::vector<float>& a, const std::vector<float>& b)
+{
+    double unlike = std::abs(static_cast<double>(a.size()) - static_cast<double>(b.size()));
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        unlike +=
+            a[i] == b[i] && std::bit_cast<std::uint32_t>(a[i]) == std::bit_cast<std::uint32_t>(b[i])
+            ? 0
+            : 1;
+    return unlike;
+}
+
 double values_unlike(const Image& a, const Image& b)
 {
-    const std::vector<float> x = values_of(a);
-    const std::vector<float> y = values_of(b);
-    double unlike = std::abs(static_cast<double>(x.size()) - static_cast<double>(y.size()));
-    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
-        unlike += std::bit_cast<std::uint32_t>(x[i]) == std::bit_cast<std::uint32_t>(y[i]) ? 0 : 1;
-    return unlike;
+    return values_unlike(values_of(a), values_of(b));
 }
 
 Agreement agreement_of(const Image& a, const Image& b)

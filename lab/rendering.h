@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace farlight::lab {
 
@@ -35,7 +36,8 @@ Image rendered(const Scene& scene, const Rendering& how);
 double largest_off(const Image& image, double expected);
 /// Of the mean.
 double standard_errors_off(const Image& image, double expected);
-/// Count of values whose bits differ.
+/// Count of values whose bits differ; what is no number is like nothing.
+double values_unlike(const std::vector<float>& a, const std::vector<float>& b);
 double values_unlike(const Image& a, const Image& b);
 
 /// Whether two pictures show the same, each with noise of its own.
