@@ -1,10 +1,7 @@
 // See the header.
 #include "lab/server_bench.h"
 
-#include <cstdlib>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 namespace farlight::lab {
 namespace {
@@ -32,25 +29,8 @@ StreamOptions any_free_port()
 
 }  // namespace
 
-DocumentFile::DocumentFile(const nlohmann::json& document)
-{
-    std::string folder = (std::filesystem::temp_directory_path() / "farlight-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr)
-        throw std::runtime_error("cannot make a folder for a scene: " + folder);
-    path_ = std::filesystem::path(folder) / "scene.json";
-    if (!(std::ofstream(path_) << document.dump()))
-        throw std::runtime_error("cannot write " + path_.string());
-}
-
-DocumentFile::~DocumentFile()
-{
-    std::error_code ignored;
-    std::filesystem::remove_all(path_.parent_path(), ignored);
-}
-
 ServerBench::ServerBench(const nlohmann::json& document)
-    : file_(document)
-    , document_(SceneDocument::load(file_.path()))
+    : document_(SceneDocument::load(folder_.write("scene.json", document.dump())))
     , renderer_(document_.scene(), renderer_options())
     , service_(renderer_, document_)
     , listener_(service_, any_free_port())

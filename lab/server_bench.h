@@ -2,28 +2,14 @@
 #pragma once
 
 #include "client/session.h"
+#include "lab/temp_folder.h"
 #include "server/renderer_service.h"
 #include "server/stream/listener.h"
 
-#include <filesystem>
 #include <string>
 #include <thread>
 
 namespace farlight::lab {
-
-/// A document of a scene in a folder of its own, for as long as this lives.
-class DocumentFile {
-public:
-    explicit DocumentFile(const nlohmann::json& document);
-    ~DocumentFile();
-    DocumentFile(const DocumentFile&) = delete;
-    DocumentFile& operator=(const DocumentFile&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
 
 class ServerBench {
 public:
@@ -45,7 +31,7 @@ public:
     std::string failure() const { return renderer_.failure(); }
 
 private:
-    DocumentFile file_;
+    TempFolder folder_;
     SceneDocument document_;
     Renderer renderer_;
     RendererService service_;

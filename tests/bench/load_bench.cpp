@@ -4,10 +4,10 @@
 // farlight-load-bench [FILE]: without a file, a grid of 1,000,000 triangles with normals and uvs,
 // written beside the other temporary files. Prints the best of a few rounds, as a machine that
 // does other things besides allows no better.
+#include "lab/temp_folder.h"
 #include "server/scene/packed_scene.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
-#include "tests/scene/temp_folder.h"
 
 #include <chrono>
 #include <cmath>

@@ -1,8 +1,8 @@
 // A glTF node that mirrors shows what a mesh that was modelled as the mirror image does: its lamp
 // shines outward, its glass is solid, its normal map's bumps are bumps.
+#include "lab/temp_folder.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/png.h"
-#include "tests/scene/temp_folder.h"
 #include "tests/support/gl_test.h"
 
 namespace farlight {

@@ -1,8 +1,8 @@
 // Draco primitives and meshoptimizer buffer views: packed by their libraries, read back.
+#include "lab/temp_folder.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/compressed_gltf.h"
 #include "tests/scene/refusal.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 

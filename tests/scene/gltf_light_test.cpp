@@ -1,8 +1,8 @@
 // KHR_lights_punctual and cameras.
+#include "lab/temp_folder.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/refusal.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 #include <numbers>

@@ -1,10 +1,10 @@
 // glTF that asks for more than there is: more elements than bytes, more memory than the machine
 // has; and scenes of no size.
+#include "lab/temp_folder.h"
 #include "server/scene/camera_limits.h"
 #include "server/scene/scene_error.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/refusal.h"
-#include "tests/scene/temp_folder.h"
 
 #include <fstream>
 #include <gmock/gmock.h>

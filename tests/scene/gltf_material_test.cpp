@@ -1,9 +1,9 @@
 // glTF materials, textures and images, read back.
+#include "lab/temp_folder.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/png.h"
 #include "tests/scene/refusal.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 

@@ -1,9 +1,9 @@
 // glTF files written here, read back: component types, strides, topologies, transforms, materials.
+#include "lab/temp_folder.h"
 #include "server/scene/flatten.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/positions.h"
-#include "tests/scene/temp_folder.h"
 
 #include <algorithm>
 #include <gmock/gmock.h>

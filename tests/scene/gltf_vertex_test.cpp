@@ -1,9 +1,9 @@
 // Vertex attributes besides positions: texture coordinates, colours, tangents.
+#include "lab/temp_folder.h"
 #include "server/scene/pack_geometry.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/png.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 

@@ -1,10 +1,10 @@
 // Picture files: the shipped ones hold what tools/make_scene_files.py computes; broken ones are
 // refused.
+#include "lab/temp_folder.h"
 #include "server/scene/image_file.h"
 #include "server/scene/json_text.h"
 #include "tests/scene/png.h"
 #include "tests/scene/refusal.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 #include <numbers>

@@ -1,12 +1,12 @@
 // Documents and their edits.
 #include "server/scene/scene_document.h"
 
+#include "lab/temp_folder.h"
 #include "server/scene/gltf_file.h"
 #include "server/scene/scene_defaults.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/png.h"
 #include "tests/scene/refusal.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

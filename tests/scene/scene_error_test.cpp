@@ -1,6 +1,6 @@
 // Every way a Farlight scene can be wrong, and what the error says: where, found, expected.
+#include "lab/temp_folder.h"
 #include "tests/scene/bad_scene.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 

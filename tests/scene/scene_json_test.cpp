@@ -1,8 +1,8 @@
 // What a good Farlight scene turns into.
+#include "lab/temp_folder.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
 #include "tests/scene/positions.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
 // Materials and textures of Farlight scenes.
+#include "lab/temp_folder.h"
 #include "server/scene/json_schema.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/png.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 // What moves and changes in Farlight scenes: nodes, spins, tracks of the timeline.
+#include "lab/temp_folder.h"
 #include "server/scene/scene_file.h"
 #include "tests/scene/gltf_builder.h"
-#include "tests/scene/temp_folder.h"
 
 #include <gmock/gmock.h>
 

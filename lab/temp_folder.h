@@ -1,9 +1,8 @@
-// A folder of its own for each test, gone when the test is.
+// A folder for a test or a case alone, gone when it is.
 #pragma once
 
 #include <filesystem>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <random>
 #include <string>
 
@@ -12,7 +11,7 @@ namespace farlight {
 class TempFolder {
 public:
     TempFolder()
-        : path_(std::filesystem::path(testing::TempDir())
+        : path_(std::filesystem::temp_directory_path()
             / ("farlight-" + std::to_string(std::random_device{}())))
     {
         std::filesystem::create_directories(path_);
